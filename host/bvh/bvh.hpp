@@ -1,0 +1,29 @@
+// Triangles to an 8-wide bounding volume hierarchy, on the host.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wedge/math.hpp"
+#include "wedge/shared/bvh.h"
+
+namespace wedge::bvh {
+
+/// nodes[0] is the root and is there even for an empty scene (all slots unused).
+struct Bvh {
+    std::vector<shared::BvhNode> nodes;
+    std::vector<shared::TriangleBlock> blocks;
+    Bounds bounds;                  ///< of the triangles kept
+    uint64_t degenerate_count = 0;  ///< dropped: two corners equal, or corners in one line
+    uint64_t non_finite_count = 0;  ///< dropped: a corner is NaN or infinite
+    uint32_t depth = 0;             ///< levels of nodes; bounds the traversal stack
+    double build_s = 0;
+};
+
+/// Binned surface-area heuristic (Wald 2007), collapsed to 8 children (Dammertz 2008). `triangles`
+/// index `positions`; TriangleBlock::primitive is the index into `triangles`. The same input gives
+/// the same bits whatever the number of threads. Throws Error(bad_input) if an index is out of range.
+Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles);
+
+}  // namespace wedge::bvh

@@ -1,0 +1,82 @@
+// Scene in, image out.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wedge/device.hpp"
+#include "wedge/image.hpp"
+#include "wedge/scene.hpp"
+
+namespace wedge {
+
+/// `hash`: independent samples, textbook variance, for statistical tests. `sobol`: Owen-scrambled
+/// Sobol with pixels in Z-order, the default (docs/method.md).
+enum class Sampler { sobol, hash };
+
+struct Rect {
+    int x = 0, y = 0, width = 0, height = 0;  ///< px
+};
+
+struct Progress {
+    uint64_t samples_done = 0, samples_total = 0;  ///< pixel samples
+    double elapsed_s = 0;
+};
+
+struct RenderOptions {
+    std::string device;                    ///< index, part of a name, `cpu`, `gpu`; empty: the best there is
+    std::optional<int> samples_per_pixel;  ///< else the scene's
+    std::optional<int> bounces;            ///< else the scene's
+    std::optional<double> time_limit_s;    ///< stop at the first batch boundary after this
+    std::optional<Rect> crop;              ///< other pixels are not rendered and stay 0
+    uint32_t seed = 0;
+    uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
+    Sampler sampler = Sampler::sobol;
+    std::string kernel_dir;              ///< read kernels from this source tree instead of the program
+    uint32_t local_size = 0;             ///< work-group size; 0: what suits the device
+    uint32_t tile_pixels = 0;            ///< pixels an enqueue; 0: what suits the device
+    const std::atomic<bool>* stop = nullptr;         ///< set it to end early with what there is
+    std::function<void(const Progress&)> on_progress;  ///< called from the rendering thread
+};
+
+/// Samples are summed in batches of this many, in order, so that any split of the work into batches
+/// gives the same bits.
+inline constexpr uint32_t kSampleBatch = 4;
+
+struct PassStats {
+    std::string name;
+    double device_s = 0;
+    uint64_t launches = 0;
+};
+
+struct RenderStats {
+    DeviceInfo device;
+    std::vector<PassStats> passes;
+    uint64_t rays = 0;     ///< closest-hit and occlusion queries
+    uint64_t samples = 0;  ///< pixel samples
+    uint64_t non_finite_samples = 0;  ///< dropped
+    uint64_t device_bytes = 0;
+    uint64_t triangles = 0, degenerate_triangles = 0, non_finite_triangles = 0;
+    double flatten_s = 0, bvh_build_s = 0, upload_s = 0, compile_s = 0, render_s = 0;
+    int programs_compiled = 0, programs_from_cache = 0;
+    bool interrupted = false;  ///< by `stop`
+};
+
+struct Frame {
+    Image image;
+    RenderStats stats;
+};
+
+/// Renders with plain path tracing: unbiased, and the truth other methods are measured against.
+/// Throws Error(device) or Error(bad_input); a device error after the first finished pass is kept in the
+/// log, and the frame holds what was done.
+Frame render(const Scene& scene, const RenderOptions& options = {});
+
+/// JSON of everything in `stats`, for `--stats`.
+std::string stats_to_json(const RenderStats& stats);
+
+}  // namespace wedge

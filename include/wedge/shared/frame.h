@@ -1,0 +1,48 @@
+/* What a launch of the path tracer needs to know, and what it leaves behind. */
+#ifndef WEDGE_SHARED_FRAME_H
+#define WEDGE_SHARED_FRAME_H
+
+#include "wedge/shared/portable.h"
+
+WEDGE_SHARED_BEGIN
+
+/* A point (x, y) of the film, in pixels from the top left, looks along
+   corner + x * step_x + y * step_y (not normalised) from `position`. */
+typedef struct CameraRays {
+    float4 position; /* w: largest magnitude of any coordinate of position; scales rounding errors */
+    float4 corner, step_x, step_y;
+} CameraRays;
+WEDGE_ASSERT_SIZE(CameraRays, 64);
+
+#define WEDGE_SAMPLER_HASH 0
+#define WEDGE_SAMPLER_SOBOL 1
+
+typedef struct FrameParams {
+    CameraRays camera;
+    float4 background; /* rgb radiance */
+    int width, height; /* of the whole film, px */
+    int crop_x, crop_y, crop_width, crop_height;
+    uint seed;
+    int sampler;
+    int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence */
+    int bounces;
+    uint light_count;
+    uint unused;
+} FrameParams;
+WEDGE_ASSERT_SIZE(FrameParams, 128);
+
+/* Sums over a pixel's samples, owned by one work-item. */
+typedef struct FilmPixel {
+    float4 emission; /* rgb: light seen directly, w: samples that hit anything */
+    float4 direct;   /* rgb, w: samples */
+    float4 indirect; /* rgb, w: rays traced */
+    float4 square;   /* rgb: sum of the squared total radiance, w: non-finite samples, dropped */
+    float4 albedo;   /* rgb: kd + ks at the first hit, w: distance along the view axis */
+    float4 normal;   /* xyz: shading normal at the first hit */
+    float4 position; /* xyz: first hit */
+} FilmPixel;
+WEDGE_ASSERT_SIZE(FilmPixel, 112);
+
+WEDGE_SHARED_END
+
+#endif
