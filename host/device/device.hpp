@@ -50,6 +50,7 @@ class Device {
     /// Waits until all is done. Throws Error(device).
     void finish();
 
+    /// All that was ever asked for, released or not.
     uint64_t allocated_bytes() const { return allocated_bytes_; }
 
   private:

@@ -26,7 +26,8 @@ struct Program {
 
 /// `kernels/x.cl` with every `#include "…"` replaced by the file it names (each file once), so that the
 /// driver sees one flat text. Files come from the program itself or, if `kernel_dir` is given, from
-/// that source tree. Include names are from the repository root or, for "wedge/…", from include/.
+/// that source tree. Include names are from include/ ("wedge/shared/bvh.h") or from kernels/
+/// ("lib/trace.clh"; "kernels/lib/trace.clh" is the same). An include stands outside every `#if`.
 /// `#line` directives keep file names and lines in build logs true. Throws Error(internal / bad_input).
 std::string assemble_source(const std::string& file, const std::string& kernel_dir = "");
 
