@@ -1,5 +1,5 @@
-// The subcommands of the program. Each adds itself to the app; what it is asked to do runs as a CLI11
-// callback while the command line is parsed, and throws wedge::Error where it cannot be done.
+// The subcommands of the program. Each adds itself to the app; what it is asked to do runs as a
+// CLI11 callback while the command line is parsed, and throws wedge::Error where it cannot be done.
 #pragma once
 
 #include <exception>

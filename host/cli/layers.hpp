@@ -1,0 +1,21 @@
+// Which layers an EXR file gets (docs/output.md says what each holds).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wedge/image.hpp"
+
+namespace wedge::cli {
+
+/// "direct, indirect, …", for help and messages.
+std::string layer_names();
+
+/// Names in any case, or `all` (also if the list is empty) or `none`. Returns the names as they are
+/// spelled in files. Throws Error(usage) that lists the known ones.
+std::vector<std::string> parse_layers(const std::vector<std::string>& names);
+
+/// R, G, B, A and the channels of `layers`, in the order of `image`.
+Image select_layers(const Image& image, const std::vector<std::string>& layers);
+
+}  // namespace wedge::cli

@@ -1,0 +1,187 @@
+// wedge render: a scene in, image files out.
+#include "wedge/render.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "host/base/atomic_file.hpp"
+#include "host/cli/asset_paths.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/image_support.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/layers.hpp"
+#include "host/cli/messages.hpp"
+#include "host/cli/progress.hpp"
+#include "host/cli/render_arguments.hpp"
+#include "host/cli/render_report.hpp"
+#include "wedge/error.hpp"
+#include "wedge/log.hpp"
+
+namespace wedge::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void check_outputs(const RenderArguments& arguments, const RenderJob& job) {
+    for (const fs::path& file : job.outputs) check_output(file);
+    if (!arguments.stats_file.empty()) check_output(arguments.stats_file);
+}
+
+void replay(const Scene& scene, const RenderJob& job) {
+    const std::string text = replay_pixel(scene, job.options, job.pixel->x, job.pixel->y);
+    std::fputs(text.c_str(), stdout);
+    if (!text.ends_with('\n')) std::fputc('\n', stdout);
+}
+
+Frame render_with_progress(const Scene& scene, RenderOptions options) {
+    const InterruptScope interrupt;
+    ProgressDisplay display(options.time_limit_s);
+    options.stop = &InterruptScope::requested();
+    options.on_progress = [&](const Progress& progress) { display.update(progress); };
+    return render(scene, options);
+}
+
+// A file that fails must not take the others with it: all are tried, the first error is thrown.
+void write_outputs(const RenderArguments& arguments, const RenderJob& job, const Image& image,
+                   float exposure) {
+    std::unique_ptr<Error> first_error;
+    for (const fs::path& file : job.outputs) {
+        try {
+            const bool is_exr = output_format(file) == OutputFormat::exr;
+            write_output(file, is_exr ? select_layers(image, job.layers) : image,
+                         {exposure, arguments.tone});
+            fmt::print("{}\n", file.string());
+        } catch (const Error& error) {
+            if (first_error)
+                log_warning(error.what());
+            else
+                first_error = std::make_unique<Error>(error);
+        }
+    }
+    std::fflush(stdout);
+    if (first_error) throw *first_error;
+}
+
+void write_stats(const RenderArguments& arguments, const std::string& json) {
+    if (arguments.stats_file.empty()) return;
+    write_file_atomically(arguments.stats_file, json);
+    fmt::print("{}\n", arguments.stats_file);
+    std::fflush(stdout);
+}
+
+void run(const RenderArguments& arguments) {
+    install_messages(arguments.quiet);
+    const RenderJob job = check_arguments(arguments);
+    if (!job.pixel) {
+        require_image_support("render");
+        check_outputs(arguments, job);
+    }
+
+    const auto start = std::chrono::steady_clock::now();
+    Scene scene = load_scene(arguments.scene, load_options(arguments.asset_paths));
+    apply_film(job, scene);
+    const double load_s = seconds_since(start);
+    if (job.pixel) return replay(scene, job);
+
+    const Frame frame = render_with_progress(scene, job.options);
+    const Outcome outcome = judge(scene, job.options, frame.stats);
+    if (frame.stats.samples == 0) {
+        if (frame.stats.interrupted) {
+            say("stopped before the first sample; nothing was written");
+            throw Interrupted{};
+        }
+        throw Error(ErrorKind::device, "no sample was rendered; nothing was written");
+    }
+    write_outputs(arguments, job, frame.image,
+                  arguments.exposure.value_or(scene.defaults.exposure));
+    write_stats(arguments, stats_json(frame.stats, outcome, arguments.scene, load_s));
+    report(frame.stats, outcome, scene, job.options, load_s);
+    if (frame.stats.interrupted) throw Interrupted{};
+    if (outcome.is_short)
+        throw Error(ErrorKind::device,
+                    fmt::format("the device failed after {:.4g} of {} samples per pixel; what was "
+                                "rendered until then is saved",
+                                outcome.samples_per_pixel, outcome.samples_per_pixel_asked));
+}
+
+void add_what_to_render(CLI::App& command, RenderArguments& a) {
+    command.add_option("scene", a.scene, "Scene file (.json) or model (.obj)")->required();
+    command.add_option("--spp", a.spp, "Samples per pixel; default: the scene's");
+    command.add_option("--bounces", a.bounces,
+                       "Indirect bounces, 0 is direct light only; default: the scene's");
+    command.add_option("--size", a.size, "Film as WIDTHxHEIGHT in px; default: the scene's");
+    command.add_option("--crop", a.crop,
+                       "Render X,Y,WIDTH,HEIGHT in px only, the rest stays 0; default: all");
+    command.add_option("--time", a.time_s,
+                       "End after this many seconds, or at --spp, whichever is first; default: no "
+                       "limit");
+    command.add_option("--seed", a.seed, "Seed of all random numbers; default: 0");
+    command.add_option("--sampler", a.sampler, "sobol or hash; default: sobol");
+    command.add_option(
+        "--sample-offset", a.sample_offset,
+        fmt::format("First sample of each pixel, a multiple of {}; default: 0", kSampleBatch));
+    command.add_option("--asset-path", a.asset_paths, kAssetPathHelp)
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+}
+
+void add_results(CLI::App& command, RenderArguments& a) {
+    command
+        .add_option("-o,--output", a.outputs,
+                    "Image to write, .exr or .png; repeatable; default: the scene's name, both, "
+                    "in the current folder")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--aov", a.layers,
+                    "Layers of the EXR, separated by commas: " + layer_names() +
+                        ", all or none; default: all")
+        ->type_name("LIST")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--exposure", a.exposure,
+                       "Exposure of the PNG in stops; default: the scene's");
+    command.add_option("--tone", a.tone,
+                       "Tone curve of the PNG: srgb, filmic or reinhard; default: srgb");
+    command
+        .add_option("--stats", a.stats_file, "Write times, rays and sizes as JSON; default: none")
+        ->type_name("FILE");
+    command.add_option("--pixel", a.pixel,
+                       "Replay the paths of pixel X,Y (px) in words on stdout, write no image");
+    command.add_flag("--quiet", a.quiet, "Only warnings and errors on stderr");
+}
+
+void add_device(CLI::App& command, RenderArguments& a) {
+    command.add_option("--device", a.device,
+                       "Index, part of a name, cpu or gpu (see `wedge devices`); default: "
+                       "WEDGE_DEVICE, else the first GPU, else the first device");
+    command.add_option("--local-size", a.local_size,
+                       "Work-items in a work-group; default: 0, what suits the device");
+    command.add_option("--tile", a.tile_pixels,
+                       "Pixels in one launch; default: 0, what suits the device");
+    command
+        .add_option("--kernel-dir", a.kernel_dir,
+                    "Read kernels from this source tree; default: those in the program")
+        ->type_name("DIR");
+}
+
+}  // namespace
+
+void register_render(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene to EXR and PNG files");
+    auto arguments = std::make_shared<RenderArguments>();
+    add_what_to_render(*command, *arguments);
+    add_results(*command, *arguments);
+    add_device(*command, *arguments);
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace wedge::cli

@@ -1,0 +1,128 @@
+#include "host/cli/render_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "host/cli/layers.hpp"
+#include "host/cli/numbers.hpp"
+#include "wedge/error.hpp"
+
+namespace wedge::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLargestSide_px = 65536;  // the same as in scene files
+
+[[noreturn]] void refuse(const std::string& message) {
+    throw Error(ErrorKind::usage, message);
+}
+
+void check_numbers(const RenderArguments& a) {
+    if (a.spp && *a.spp < 1) refuse(fmt::format("--spp: must be at least 1, got {}", *a.spp));
+    if (a.bounces && *a.bounces < 0)
+        refuse(fmt::format("--bounces: must be at least 0, got {}", *a.bounces));
+    if (a.time_s && !(*a.time_s > 0 && std::isfinite(*a.time_s)))
+        refuse(fmt::format("--time: must be a positive number of seconds, got {}", *a.time_s));
+    if (a.exposure && !std::isfinite(*a.exposure))
+        refuse(fmt::format("--exposure: must be a number of stops, got {}", *a.exposure));
+    if (a.sample_offset % kSampleBatch != 0)
+        refuse(fmt::format("--sample-offset: must be a multiple of {}, got {}", kSampleBatch,
+                           a.sample_offset));
+}
+
+Film parse_size(const std::string& text) {
+    const auto sides = parse_integers("--size", text, "xX", 2, "WIDTHxHEIGHT in pixels");
+    const auto [smallest, largest] = std::minmax(sides[0], sides[1]);
+    if (smallest < 1 || largest > kLargestSide_px)
+        refuse(fmt::format("--size: each side must be 1 to {} px, got {}", kLargestSide_px, text));
+    return Film{sides[0], sides[1]};
+}
+
+Rect parse_crop(const std::string& text) {
+    const auto n = parse_integers("--crop", text, ",", 4, "X,Y,WIDTH,HEIGHT in pixels");
+    if (n[0] < 0 || n[1] < 0 || n[2] < 1 || n[3] < 1)
+        refuse("--crop: X and Y must be at least 0, WIDTH and HEIGHT at least 1, got " + text);
+    return Rect{n[0], n[1], n[2], n[3]};
+}
+
+Pixel parse_pixel(const std::string& text) {
+    const auto n = parse_integers("--pixel", text, ",", 2, "X,Y in pixels");
+    return Pixel{n[0], n[1]};
+}
+
+Sampler parse_sampler(const std::string& name) {
+    if (name == "sobol") return Sampler::sobol;
+    if (name == "hash") return Sampler::hash;
+    refuse("--sampler " + name + ": no such sampler; known: sobol, hash");
+}
+
+std::vector<fs::path> output_files(const RenderArguments& arguments) {
+    std::vector<fs::path> files(arguments.outputs.begin(), arguments.outputs.end());
+    if (files.empty()) {
+        const std::string stem = fs::path(arguments.scene).stem().string();
+        files = {stem + ".exr", stem + ".png"};
+    }
+    for (const fs::path& file : files) output_format(file);
+    return files;
+}
+
+}  // namespace
+
+OutputFormat output_format(const fs::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".exr") return OutputFormat::exr;
+    if (extension == ".png") return OutputFormat::png;
+    refuse(file.string() + ": unknown image extension '" + extension + "'; known: .exr, .png");
+}
+
+RenderJob check_arguments(const RenderArguments& arguments) {
+    check_numbers(arguments);
+    check_tone(arguments.tone);
+
+    RenderJob job;
+    job.options.device = arguments.device;
+    job.options.samples_per_pixel = arguments.spp;
+    job.options.bounces = arguments.bounces;
+    job.options.time_limit_s = arguments.time_s;
+    if (!arguments.crop.empty()) job.options.crop = parse_crop(arguments.crop);
+    job.options.seed = arguments.seed;
+    job.options.sample_offset = arguments.sample_offset;
+    job.options.sampler = parse_sampler(arguments.sampler);
+    job.options.kernel_dir = arguments.kernel_dir;
+    job.options.local_size = arguments.local_size;
+    job.options.tile_pixels = arguments.tile_pixels;
+
+    job.outputs = output_files(arguments);
+    job.layers = parse_layers(arguments.layers);
+    if (!arguments.size.empty()) job.film = parse_size(arguments.size);
+    if (!arguments.pixel.empty()) job.pixel = parse_pixel(arguments.pixel);
+    return job;
+}
+
+void apply_film(const RenderJob& job, Scene& scene) {
+    if (job.film) scene.film = *job.film;
+    const Film& film = scene.film;
+    if (const auto& crop = job.options.crop) {
+        // Differences, because sums of large numbers could overflow.
+        const bool inside = crop->x < film.width && crop->y < film.height &&
+                            crop->width <= film.width - crop->x &&
+                            crop->height <= film.height - crop->y;
+        if (!inside)
+            refuse(fmt::format("--crop {},{},{},{}: reaches outside the film of {}x{} px", crop->x,
+                               crop->y, crop->width, crop->height, film.width, film.height));
+    }
+    if (const auto& pixel = job.pixel) {
+        const bool inside =
+            pixel->x >= 0 && pixel->y >= 0 && pixel->x < film.width && pixel->y < film.height;
+        if (!inside)
+            refuse(fmt::format("--pixel {},{}: outside the film of {}x{} px", pixel->x, pixel->y,
+                               film.width, film.height));
+    }
+}
+
+}  // namespace wedge::cli
