@@ -14,6 +14,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kRewriteInterval = 100ms;
 constexpr auto kLineInterval = 10s;
+constexpr auto kShortestLineInterval = 1s;  // of lines at tenths, so that a short render is brief
 constexpr int kBarCells = 30;
 
 std::string bar(double fraction) {
@@ -59,10 +60,10 @@ void ProgressDisplay::update(const Progress& progress) {
 bool ProgressDisplay::is_due(double fraction) {
     const auto now = Clock::now();
     const int tenth = int(10 * fraction);
-    const auto interval =
-        stderr_is_terminal() ? Clock::duration(kRewriteInterval) : Clock::duration(kLineInterval);
-    const bool at_tenth = !stderr_is_terminal() && tenth > last_tenth_;
-    if (last_shown_ && !at_tenth && now - *last_shown_ < interval) return false;
+    Clock::duration interval = kRewriteInterval;
+    if (!stderr_is_terminal())
+        interval = tenth > last_tenth_ ? kShortestLineInterval : kLineInterval;
+    if (last_shown_ && now - *last_shown_ < interval) return false;
     last_shown_ = now;
     last_tenth_ = tenth;
     return true;

@@ -33,6 +33,7 @@ std::string text_of_bytes(uint64_t bytes) {
 }
 
 std::string text_of_seconds(double seconds) {
+    if (seconds < 0.9995) return fmt::format("{:.0f} ms", 1000 * seconds);
     if (seconds < 59.95) return three_digits(seconds) + " s";
     const auto whole = uint64_t(seconds + 0.5);
     if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
