@@ -29,14 +29,6 @@ bool has_x86_movmsk(const Device& device) {
 #endif
 }
 
-std::string build_options(const Device& device, const ProgramRequest& request) {
-    std::string options = "-cl-std=CL1.2";
-    if (device.info().type == DeviceType::cpu) options += " -DWEDGE_CPU=1";
-    if (has_x86_movmsk(device)) options += " -DWEDGE_X86_MOVMSK=1";
-    for (const std::string& define : request.defines) options += " -D" + define;
-    return options;
-}
-
 std::string first_lines(const std::string& text, int count) {
     std::istringstream lines(text);
     std::string line, kept;
@@ -126,6 +118,14 @@ Program build_one(const Device& device, const ProgramRequest& request,
 }
 
 }  // namespace
+
+std::string build_options(const Device& device, const ProgramRequest& request) {
+    std::string options = "-cl-std=CL1.2";
+    if (device.info().type == DeviceType::cpu) options += " -DWEDGE_CPU=1";
+    if (has_x86_movmsk(device)) options += " -DWEDGE_X86_MOVMSK=1";
+    for (const std::string& define : request.defines) options += " -D" + define;
+    return options;
+}
 
 cl::Kernel Program::kernel(const char* name) const {
     try {

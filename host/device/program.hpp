@@ -24,17 +24,24 @@ struct Program {
     cl::Kernel kernel(const char* name) const;
 };
 
-/// `kernels/x.cl` with every `#include "…"` replaced by the file it names (each file once), so that the
-/// driver sees one flat text. Files come from the program itself or, if `kernel_dir` is given, from
-/// that source tree. Include names are from include/ ("wedge/shared/bvh.h") or from kernels/
+/// `kernels/x.cl` with every `#include "…"` replaced by the file it names (each file once), so that
+/// the driver sees one flat text. Files come from the program itself or, if `kernel_dir` is given,
+/// from that source tree. Include names are from include/ ("wedge/shared/bvh.h") or from kernels/
 /// ("lib/trace.clh"; "kernels/lib/trace.clh" is the same). An include stands outside every `#if`.
-/// `#line` directives keep file names and lines in build logs true. Throws Error(internal / bad_input).
+/// `#line` directives keep file names and lines in build logs true. Throws Error(internal /
+/// bad_input).
 std::string assemble_source(const std::string& file, const std::string& kernel_dir = "");
 
-/// Builds all, in parallel, each from the binary cache if it is there. Throws Error(device) with the
-/// device's name and the build log. Cache: $WEDGE_CACHE_DIR, else $XDG_CACHE_HOME/wedge, else ~/.cache/wedge;
-/// off if WEDGE_CACHE=0 and on PoCL, which has its own (there `from_cache` says whether PoCL's was warm
-/// cannot be known and is false). Any fault of the cache falls back to the source silently.
+/// What the compiler is called with: OpenCL C 1.2, the request's defines, and of the device
+/// `WEDGE_CPU=1` on CPUs and `WEDGE_X86_MOVMSK=1` where kernels may call the x86 builtin
+/// `__builtin_ia32_movmskps256` (PoCL on a host with AVX2).
+std::string build_options(const Device& device, const ProgramRequest& request);
+
+/// Builds all, in parallel, each from the binary cache if it is there. Throws Error(device) with
+/// the device's name and the build log. Cache: $WEDGE_CACHE_DIR, else $XDG_CACHE_HOME/wedge, else
+/// ~/.cache/wedge; off if WEDGE_CACHE=0 and on PoCL, which has its own (there `from_cache` says
+/// whether PoCL's was warm cannot be known and is false). Any fault of the cache falls back to the
+/// source silently.
 std::vector<Program> build_programs(Device& device, std::span<const ProgramRequest> requests,
                                     const std::string& kernel_dir = "");
 
