@@ -16,14 +16,15 @@ struct Bvh {
     std::vector<shared::TriangleBlock> blocks;
     Bounds bounds;                  ///< of the triangles kept
     uint64_t degenerate_count = 0;  ///< dropped: two corners equal, or corners in one line
-    uint64_t non_finite_count = 0;  ///< dropped: a corner is NaN or infinite
-    uint32_t depth = 0;             ///< levels of nodes; bounds the traversal stack
+    uint64_t non_finite_count = 0;  ///< dropped: a corner is NaN, infinite or beyond FLT_MAX / 4
+    uint32_t depth = 0;             ///< levels of nodes, at most WEDGE_MAX_DEPTH
     double build_s = 0;
 };
 
 /// Binned surface-area heuristic (Wald 2007), collapsed to 8 children (Dammertz 2008). `triangles`
 /// index `positions`; TriangleBlock::primitive is the index into `triangles`. The same input gives
-/// the same bits whatever the number of threads. Throws Error(bad_input) if an index is out of range.
+/// the same bits whatever the number of threads. Throws Error(bad_input) if an index is out of
+/// range.
 Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles);
 
 }  // namespace wedge::bvh

@@ -23,6 +23,11 @@ WEDGE_ASSERT_SIZE(TriangleBlock, 160);
 
 #define WEDGE_NO_PRIMITIVE 0xffffffffu
 
+/* A visit to a node leaves at most 7 children waiting, so a tree of WEDGE_MAX_DEPTH levels of nodes
+   can never have more than this many waiting at once. The builder keeps to the depth. */
+#define WEDGE_MAX_DEPTH 27
+#define WEDGE_STACK_SIZE (7 * WEDGE_MAX_DEPTH + 1)
+
 WEDGE_SHARED_END
 
 #endif

@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+
+#include "host/base/parallel.hpp"
+#include "host/bvh/bvh.hpp"
+#include "host/bvh/prim_refs.hpp"
+#include "host/bvh/split.hpp"
+
+namespace wedge::bvh {
+namespace {
+
+constexpr uint32_t kLeafTriangles = 4;
+constexpr int kWidth = 8;
+// From this level on ranges are halved by count, which leaves at most an eighth for the next level:
+// 16 + log8(2^32 / 4) + 1 < WEDGE_MAX_DEPTH.
+constexpr uint32_t kBalancedLevel = 16;
+// Subtrees up to this size are one task.
+constexpr uint32_t kTaskTriangles = 1 << 13;
+
+/// A subtree with indices of its own. Children that are pieces themselves are in `kids`.
+struct Piece {
+    std::vector<shared::BvhNode> nodes;
+    std::vector<shared::TriangleBlock> blocks;
+    std::array<std::unique_ptr<Piece>, kWidth> kids;
+    uint32_t depth = 0;
+};
+
+struct Input {
+    std::span<const Vec3> positions;
+    std::span<const UVec3> triangles;
+    std::span<PrimRef> refs;
+    float scale = 1;
+};
+
+shared::BvhNode unused_node() {
+    shared::BvhNode node{};
+    for (int row = 0; row < 6; ++row)
+        std::fill_n(node.bounds[row], kWidth, row % 2 == 0 ? INFINITY : -INFINITY);
+    return node;
+}
+
+void set_child_bounds(shared::BvhNode& node, int slot, const Box& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+        node.bounds[2 * axis][slot] = box.lower[axis];
+        node.bounds[2 * axis + 1][slot] = box.upper[axis];
+    }
+}
+
+shared::TriangleBlock make_block(const Input& input, const Range& range) {
+    shared::TriangleBlock block{};
+    std::fill_n(block.primitive, kLeafTriangles, WEDGE_NO_PRIMITIVE);
+    for (uint32_t lane = 0; lane < range.count; ++lane) {
+        const uint32_t primitive = input.refs[range.first + lane].primitive();
+        const UVec3 triangle = input.triangles[primitive];
+        block.primitive[lane] = primitive;
+        for (int axis = 0; axis < 3; ++axis) {
+            block.v0[axis][lane] = input.positions[triangle.x][axis];
+            block.v1[axis][lane] = input.positions[triangle.y][axis];
+            block.v2[axis][lane] = input.positions[triangle.z][axis];
+        }
+    }
+    return block;
+}
+
+struct Children {
+    std::array<Range, kWidth> ranges;
+    int count = 0;
+};
+
+/// Opens the range with the largest box (Dammertz et al. 2008), or when balancing that with the
+/// most triangles, until there are 8 or all are leaves.
+Children divide(const Input& input, const Range& range, uint32_t level) {
+    Children children;
+    children.ranges[children.count++] = range;
+    const bool balance = level >= kBalancedLevel;
+    while (children.count < kWidth) {
+        int widest = -1;
+        float widest_size = -1;
+        for (int i = 0; i < children.count; ++i) {
+            const Range& child = children.ranges[i];
+            const float size = balance ? float(child.count) : half_area(child.bounds, input.scale);
+            if (child.count <= kLeafTriangles || size <= widest_size) continue;
+            widest = i;
+            widest_size = size;
+        }
+        if (widest < 0) break;
+        const Range opened = children.ranges[widest];
+        const RangePair pair = balance ? split_by_count(input.refs, opened)
+                                       : split_by_area(input.refs, opened, input.scale);
+        children.ranges[widest] = pair.left;
+        children.ranges[children.count++] = pair.right;
+    }
+    return children;
+}
+
+/// Appends the subtree of `range`, depth first, and returns the index of its node.
+int32_t append_subtree(const Input& input, const Range& range, uint32_t level, Piece& piece) {
+    const int32_t index = int32_t(piece.nodes.size());
+    piece.nodes.push_back(unused_node());
+    piece.depth = std::max(piece.depth, level + 1);
+    const Children children = divide(input, range, level);
+    for (int i = 0; i < children.count; ++i) {
+        const Range& child = children.ranges[i];
+        set_child_bounds(piece.nodes[index], i, child.bounds);
+        if (child.count <= kLeafTriangles) {
+            piece.nodes[index].child[i] = ~int32_t(piece.blocks.size());
+            piece.blocks.push_back(make_block(input, child));
+        } else {
+            // The vector may move during the call: index it afterwards.
+            const int32_t below = append_subtree(input, child, level + 1, piece);
+            piece.nodes[index].child[i] = below;
+        }
+    }
+    return index;
+}
+
+std::unique_ptr<Piece> build_piece(const Input& input, const Range& range, uint32_t level) {
+    auto piece = std::make_unique<Piece>();
+    if (range.count <= kTaskTriangles) {
+        piece->nodes.reserve(range.count / 12 + 1);
+        piece->blocks.reserve(range.count / 3 + 1);
+        append_subtree(input, range, level, *piece);
+        return piece;
+    }
+    piece->depth = level + 1;
+    piece->nodes.push_back(unused_node());
+    const Children children = divide(input, range, level);
+    for (int i = 0; i < children.count; ++i) {
+        set_child_bounds(piece->nodes[0], i, children.ranges[i].bounds);
+        if (children.ranges[i].count > kLeafTriangles) continue;
+        piece->nodes[0].child[i] = ~int32_t(piece->blocks.size());
+        piece->blocks.push_back(make_block(input, children.ranges[i]));
+    }
+    parallel_ranges(children.count, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (children.ranges[i].count > kLeafTriangles)
+                piece->kids[i] = build_piece(input, children.ranges[i], level + 1);
+    });
+    return piece;
+}
+
+struct PlacedPiece {
+    const Piece* piece;
+    int32_t first_node, first_block;
+};
+
+/// Gives every piece its place, depth first, and links pieces to the pieces above them.
+void place_pieces(Piece& piece, std::vector<PlacedPiece>& placed, Bvh& bvh) {
+    const PlacedPiece here{&piece, int32_t(bvh.nodes.size()), int32_t(bvh.blocks.size())};
+    placed.push_back(here);
+    bvh.depth = std::max(bvh.depth, piece.depth);
+    bvh.nodes.resize(bvh.nodes.size() + piece.nodes.size());
+    bvh.blocks.resize(bvh.blocks.size() + piece.blocks.size());
+    for (int i = 0; i < kWidth; ++i) {
+        if (!piece.kids[i]) continue;
+        // Relative to this piece, like all its other children.
+        piece.nodes[0].child[i] = int32_t(bvh.nodes.size()) - here.first_node;
+        place_pieces(*piece.kids[i], placed, bvh);
+    }
+}
+
+void copy_piece(const PlacedPiece& from, Bvh& bvh) {
+    std::copy(from.piece->blocks.begin(), from.piece->blocks.end(),
+              bvh.blocks.begin() + from.first_block);
+    for (std::size_t i = 0; i < from.piece->nodes.size(); ++i) {
+        shared::BvhNode node = from.piece->nodes[i];
+        for (int slot = 0; slot < kWidth; ++slot) {
+            if (node.bounds[0][slot] > node.bounds[1][slot]) continue;  // unused: stays 0
+            node.child[slot] += node.child[slot] >= 0 ? from.first_node : -from.first_block;
+        }
+        bvh.nodes[from.first_node + i] = node;
+    }
+}
+
+Bounds to_bounds(const Box& box) {
+    return {Vec3(box.lower[0], box.lower[1], box.lower[2]),
+            Vec3(box.upper[0], box.upper[1], box.upper[2])};
+}
+
+float inverse_extent(const Bounds& bounds) {
+    const Vec3 extent = bounds.extent();
+    const float largest = glm::max(glm::max(extent.x, extent.y), extent.z);
+    const float inverse = 1 / largest;
+    return inverse > 0 && std::isfinite(inverse) ? inverse : 1.0f;
+}
+
+}  // namespace
+
+Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles) {
+    const auto start = std::chrono::steady_clock::now();
+    PrimRefs prims = collect_prim_refs(positions, triangles);
+    Bvh bvh;
+    bvh.degenerate_count = prims.degenerate_count;
+    bvh.non_finite_count = prims.non_finite_count;
+    if (prims.refs.empty()) {
+        bvh.nodes.push_back(unused_node());
+        bvh.depth = 1;
+        return bvh;
+    }
+
+    const Range all = whole_range(prims.refs);
+    bvh.bounds = to_bounds(all.bounds);
+    const Input input{positions, triangles, prims.refs, inverse_extent(bvh.bounds)};
+    const std::unique_ptr<Piece> root = build_piece(input, all, 0);
+
+    std::vector<PlacedPiece> placed;
+    place_pieces(*root, placed, bvh);
+    parallel_ranges(placed.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) copy_piece(placed[i], bvh);
+    });
+    bvh.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return bvh;
+}
+
+}  // namespace wedge::bvh
