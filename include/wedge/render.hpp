@@ -64,6 +64,7 @@ struct RenderStats {
     double flatten_s = 0, bvh_build_s = 0, upload_s = 0, compile_s = 0, render_s = 0;
     int programs_compiled = 0, programs_from_cache = 0;
     bool interrupted = false;  ///< by `stop`
+    std::string failure;       ///< device error that ended the render early; the image holds what was done
 };
 
 struct Frame {
@@ -72,9 +73,16 @@ struct Frame {
 };
 
 /// Renders with plain path tracing: unbiased, and the truth other methods are measured against.
-/// Throws Error(device) or Error(bad_input); a device error after the first finished pass is kept in the
-/// log, and the frame holds what was done.
+/// Throws Error(usage), Error(bad_input) or Error(device); a device error after the first samples ends the
+/// render early instead and is told in `stats.failure`.
 Frame render(const Scene& scene, const RenderOptions& options = {});
+
+/// Traces one pixel again and tells what each path met: place, material, throughput, light. The numbers
+/// are those of the render with the same options.
+std::string replay_pixel(const Scene& scene, const RenderOptions& options, int x, int y);
+
+/// "major.minor.patch".
+const char* version();
 
 /// JSON of everything in `stats`, for `--stats`.
 std::string stats_to_json(const RenderStats& stats);

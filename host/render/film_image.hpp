@@ -1,0 +1,16 @@
+// Sums over samples to the named channels of an image.
+#pragma once
+
+#include <span>
+
+#include "wedge/image.hpp"
+#include "wedge/render.hpp"
+#include "wedge/shared/frame.h"
+
+namespace wedge::rendering {
+
+/// `pixels` are the crop's, row by row; the image has the size of the film, 0 outside the crop.
+/// Channels are described in docs/output.md.
+Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop);
+
+}  // namespace wedge::rendering

@@ -1,0 +1,121 @@
+#include "host/render/flatten.hpp"
+
+#include <fmt/format.h>
+
+#include "host/render/lights.hpp"
+#include "wedge/error.hpp"
+
+namespace wedge::rendering {
+namespace {
+
+shared::float4 to_float4(const Vec3& v, float w = 0) {
+    return {v.x, v.y, v.z, w};
+}
+
+shared::SurfaceMaterial to_device(const Material& m) {
+    shared::SurfaceMaterial out{};
+    const bool shines = m.model != SpecularModel::none && m.specular != Vec3(0);
+    out.diffuse = to_float4(m.diffuse);
+    out.specular = shines ? to_float4(m.specular, m.exponent) : shared::float4{};
+    out.diffuse_texture = m.diffuse_texture;
+    out.specular_texture = m.specular_texture;
+    out.emission_texture = m.emission_texture;
+    out.model = !shines                           ? WEDGE_MODEL_LAMBERT
+                : m.model == SpecularModel::phong ? WEDGE_MODEL_PHONG
+                                                  : WEDGE_MODEL_BLINN_PHONG;
+    return out;
+}
+
+shared::ShadingVertex make_vertex(const Vec3& p, const Vec3& n, const Vec2& uv) {
+    return {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y};
+}
+
+void append_vertices(FlatScene& flat, const Mesh& mesh, const Mat4& transform) {
+    const glm::mat3 normal_transform = glm::transpose(glm::inverse(glm::mat3(transform)));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3 p = Vec3(transform * Vec4(mesh.positions[i], 1));
+        Vec3 n(0);
+        if (!mesh.normals.empty()) {
+            const Vec3 turned = normal_transform * mesh.normals[i];
+            const float length = glm::length(turned);
+            if (length > 0 && std::isfinite(length)) n = turned / length;
+        }
+        const Vec2 uv = mesh.uvs.empty() ? Vec2(0) : mesh.uvs[i];
+        flat.positions.push_back(p);
+        flat.vertices.push_back(make_vertex(p, n, uv));
+    }
+}
+
+void append_triangle(FlatScene& flat, const UVec3& t, uint32_t material, int light) {
+    flat.triangles.push_back(t);
+    flat.shading.push_back({t.x, t.y, t.z, material, light});
+}
+
+void append_instance(FlatScene& flat, const Scene& scene, const Instance& instance,
+                     LightList& lights) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const auto base = uint32_t(flat.positions.size());
+    append_vertices(flat, mesh, instance.transform);
+    // A mirrored instance would turn its triangles inside out.
+    const bool mirrored = glm::determinant(glm::mat3(instance.transform)) < 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        UVec3 t = mesh.triangles[i] + base;
+        if (mirrored) std::swap(t.y, t.z);
+        const uint32_t material = instance.material
+                                      ? *instance.material
+                                      : (mesh.material_of.empty() ? 0u : mesh.material_of[i]);
+        const Material& m = scene.materials[material];
+        int light = -1;
+        if (m.emission != Vec3(0))
+            light = lights.add_triangle(flat.positions[t.x], flat.positions[t.y],
+                                        flat.positions[t.z], m, uint32_t(flat.triangles.size()));
+        append_triangle(flat, t, material, light);
+    }
+}
+
+void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, LightList& lights) {
+    const auto base = uint32_t(flat.positions.size());
+    const Vec3 corner = rect.center - 0.5f * (rect.edge_u + rect.edge_v);
+    for (const Vec3& p :
+         {corner, corner + rect.edge_u, corner + rect.edge_u + rect.edge_v, corner + rect.edge_v}) {
+        flat.positions.push_back(p);
+        flat.vertices.push_back(make_vertex(p, Vec3(0), Vec2(0)));
+    }
+    const int light = lights.add_rect(rect);
+    append_triangle(flat, {base, base + 1, base + 2}, material, light);
+    append_triangle(flat, {base, base + 2, base + 3}, material, light);
+}
+
+void check_counts(const Scene& scene) {
+    uint64_t vertices = 4 * scene.rect_lights.size(), triangles = 2 * scene.rect_lights.size();
+    for (const Instance& instance : scene.instances) {
+        vertices += scene.meshes[instance.mesh].positions.size();
+        triangles += scene.meshes[instance.mesh].triangles.size();
+    }
+    constexpr uint64_t kLimit = 0x7fffffff;
+    if (vertices > kLimit || triangles > kLimit)
+        throw Error(
+            ErrorKind::bad_input,
+            fmt::format("the scene has {} triangles and {} vertices with all instances laid "
+                        "out; at most {} of each can be indexed. Use fewer instances.",
+                        triangles, vertices, kLimit));
+}
+
+}  // namespace
+
+FlatScene flatten(const Scene& scene) {
+    check_counts(scene);
+    FlatScene flat;
+    LightList lights;
+    for (const Material& m : scene.materials) flat.materials.push_back(to_device(m));
+    for (const Instance& instance : scene.instances) append_instance(flat, scene, instance, lights);
+
+    const auto black = uint32_t(flat.materials.size());
+    flat.materials.push_back(to_device(Material{.diffuse = Vec3(0)}));
+    for (const RectLight& rect : scene.rect_lights) append_rect(flat, rect, black, lights);
+    for (const PointLight& point : scene.point_lights) lights.add_point(point);
+    flat.lights = lights.take();
+    return flat;
+}
+
+}  // namespace wedge::rendering

@@ -1,0 +1,91 @@
+#include "host/render/lights.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace wedge::rendering {
+namespace {
+
+shared::float4 to_float4(const Vec3& v, double w) {
+    return {v.x, v.y, v.z, float(w)};
+}
+
+double luminance(const Vec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
+/// Mean of exp(-r^2 / (2 sigma^2)) along an edge, with sigma as a fraction of the edge.
+double gaussian_mean(double sigma) {
+    return sigma * std::sqrt(2.0 * double(kPi)) * std::erf(0.5 / (sigma * std::sqrt(2.0)));
+}
+
+}  // namespace
+
+int LightList::add(shared::Light light, double power) {
+    if (!(power > 0) || !std::isfinite(power)) return -1;
+    lights_.push_back(light);
+    powers_.push_back(power);
+    return int(lights_.size()) - 1;
+}
+
+int LightList::add_rect(const RectLight& rect) {
+    const Vec3 normal = glm::cross(rect.edge_u, rect.edge_v);
+    const double area = glm::length(glm::dvec3(normal));
+    shared::Light light{};
+    double sigma_u = 0, sigma_v = 0, mean = 1;
+    if (rect.profile == LightProfile::gaussian) {
+        sigma_u = rect.sigma / glm::length(rect.edge_u);
+        sigma_v = rect.sigma / glm::length(rect.edge_v);
+        mean = gaussian_mean(sigma_u) * gaussian_mean(sigma_v);
+    }
+    light.origin = to_float4(rect.center - 0.5f * (rect.edge_u + rect.edge_v), area);
+    light.edge_u = to_float4(rect.edge_u, sigma_u);
+    light.edge_v = to_float4(rect.edge_v, sigma_v);
+    light.normal = to_float4(glm::normalize(normal), 0);
+    light.radiance = to_float4(rect.radiance, 0);
+    light.kind = WEDGE_LIGHT_RECT;
+    light.emission_texture = -1;
+    return add(light, area * mean * double(kPi) * luminance(rect.radiance));
+}
+
+int LightList::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Material& material,
+                            uint32_t primitive) {
+    const Vec3 normal = glm::cross(b - a, c - a);
+    const double area = 0.5 * glm::length(glm::dvec3(normal));
+    if (!(area > 0) || !std::isfinite(area)) return -1;
+    shared::Light light{};
+    light.origin = to_float4(a, area);
+    light.edge_u = to_float4(b - a, 0);
+    light.edge_v = to_float4(c - a, 0);
+    light.normal = to_float4(Vec3(glm::normalize(glm::dvec3(normal))), 0);
+    light.radiance = to_float4(material.emission, 0);
+    light.kind = WEDGE_LIGHT_TRIANGLE;
+    light.emission_texture = material.emission_texture;
+    light.primitive = primitive;
+    return add(light, area * double(kPi) * luminance(material.emission));
+}
+
+int LightList::add_point(const PointLight& point) {
+    shared::Light light{};
+    light.origin = to_float4(point.position, 0);
+    light.radiance = to_float4(point.intensity, 0);
+    light.kind = WEDGE_LIGHT_POINT;
+    light.emission_texture = -1;
+    return add(light, 4 * double(kPi) * luminance(point.intensity));
+}
+
+std::vector<shared::Light> LightList::take() {
+    double total = 0;
+    for (double power : powers_) total += power;
+    double sum = 0;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        sum += powers_[i];
+        lights_[i].normal.w = float(powers_[i] / total);
+        lights_[i].radiance.w = float(sum / total);
+    }
+    if (!lights_.empty()) lights_.back().radiance.w = 1;
+    powers_.clear();
+    return std::exchange(lights_, {});
+}
+
+}  // namespace wedge::rendering

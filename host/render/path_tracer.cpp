@@ -1,0 +1,110 @@
+#include "host/render/path_tracer.hpp"
+
+#include "host/base/stopwatch.hpp"
+#include "host/bvh/bvh.hpp"
+#include "host/render/camera.hpp"
+#include "host/render/flatten.hpp"
+
+namespace wedge::rendering {
+namespace {
+
+constexpr cl_uint kWorkArgs = 4;  // first_pixel, pixel_count, first_sample, sample_count
+
+}  // namespace
+
+shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& settings,
+                                      std::size_t light_count) {
+    shared::FrameParams params{};
+    params.camera = make_camera_rays(scene.camera, scene.film);
+    params.background = {scene.background.x, scene.background.y, scene.background.z, 0};
+    params.width = scene.film.width;
+    params.height = scene.film.height;
+    params.crop_x = settings.crop.x;
+    params.crop_y = settings.crop.y;
+    params.crop_width = settings.crop.width;
+    params.crop_height = settings.crop.height;
+    params.seed = settings.seed;
+    params.sampler = settings.sampler == Sampler::sobol ? WEDGE_SAMPLER_SOBOL : WEDGE_SAMPLER_HASH;
+    params.log2_samples = settings.log2_samples;
+    params.bounces = settings.bounces;
+    params.light_count = uint32_t(light_count);
+    return params;
+}
+
+PathTracer::PathTracer(device::Device& device, const Scene& scene, const PathSettings& settings,
+                       RenderStats& stats, Recording recording)
+    : device_(device),
+      pixel_count_(uint32_t(settings.crop.width) * uint32_t(settings.crop.height)),
+      local_size_(settings.local_size),
+      vertices_per_path_(uint32_t(settings.bounces) + 2) {
+    upload(scene, settings, stats);
+    Plan plan = make_plan(scene);
+    if (recording == Recording::on) plan.path_program.defines.push_back("WEDGE_REPLAY=1");
+    compile(plan, settings, stats);
+    stats.device_bytes = device.allocated_bytes();
+}
+
+void PathTracer::upload(const Scene& scene, const PathSettings& settings, RenderStats& stats) {
+    Stopwatch watch;
+    const FlatScene flat = flatten(scene);
+    stats.flatten_s = watch.lap();
+    const bvh::Bvh bvh = bvh::build(flat.positions, flat.triangles);
+    stats.triangles = flat.triangles.size();
+    stats.degenerate_triangles = bvh.degenerate_count;
+    stats.non_finite_triangles = bvh.non_finite_count;
+    stats.bvh_build_s = watch.lap();
+
+    scene_ = upload_scene(device_, flat, bvh, scene.textures);
+    const shared::FrameParams params = make_frame_params(scene, settings, flat.lights.size());
+    params_ = device_.upload_bytes(&params, sizeof(params), "frame parameters");
+    const std::vector<shared::FilmPixel> black(pixel_count_);
+    film_ = device_.upload_bytes(black.data(), black.size() * sizeof(black[0]), "film");
+    stats.upload_s = watch.lap();
+}
+
+void PathTracer::compile(const Plan& plan, const PathSettings& settings, RenderStats& stats) {
+    Stopwatch watch;
+    const auto programs =
+        device::build_programs(device_, std::span(&plan.path_program, 1), settings.kernel_dir);
+    kernel_ = programs[0].kernel("trace_paths");
+    kernel_.setArg(0, params_);
+    const cl_uint film_arg = scene_.set_args(kernel_, 1);
+    kernel_.setArg(film_arg, film_);
+    first_work_arg_ = film_arg + 1;
+
+    // Some drivers compile at the first launch: an empty one keeps that out of the rendering time.
+    // With recording there is a buffer to come first.
+    const bool recording = kernel_.getInfo<CL_KERNEL_NUM_ARGS>() > first_work_arg_ + kWorkArgs;
+    if (!recording) add_samples({0, 0, 0, 0});
+    (programs[0].from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
+    stats.compile_s = watch.lap();
+}
+
+double PathTracer::add_samples(const Work& work) {
+    cl_uint arg = first_work_arg_;
+    for (uint32_t value :
+         {work.first_pixel, work.pixel_count, work.first_sample, work.sample_count})
+        kernel_.setArg(arg++, cl_uint(value));
+    const uint32_t work_items = work.pixel_count > 0 ? work.pixel_count : 1;
+    const cl::Event event = device_.launch(kernel_, work_items, local_size_);
+    return device::device_seconds(event);
+}
+
+std::vector<shared::PathVertex> PathTracer::record_samples(uint32_t first_sample,
+                                                           uint32_t sample_count) {
+    std::vector<shared::PathVertex> record(std::size_t(sample_count) * vertices_per_path_);
+    const uint64_t bytes = record.size() * sizeof(record[0]);
+    cl::Buffer buffer = device_.upload_bytes(record.data(), bytes, "path vertices");
+    kernel_.setArg(first_work_arg_ + kWorkArgs, buffer);
+    add_samples({0, 1, first_sample, sample_count});
+    device_.download(buffer, record.data(), bytes);
+    return record;
+}
+
+std::vector<shared::FilmPixel> PathTracer::read_film() {
+    std::vector<shared::FilmPixel> pixels(pixel_count_);
+    device_.download(film_, pixels.data(), pixels.size() * sizeof(pixels[0]));
+    return pixels;
+}
+
+}  // namespace wedge::rendering

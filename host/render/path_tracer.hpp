@@ -1,0 +1,70 @@
+// A scene on a device, ready to add samples to a film.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host/device/device.hpp"
+#include "host/render/device_scene.hpp"
+#include "host/render/plan.hpp"
+#include "wedge/render.hpp"
+#include "wedge/shared/frame.h"
+#include "wedge/shared/replay.h"
+
+namespace wedge::rendering {
+
+/// What the path tracer needs beside the scene.
+struct PathSettings {
+    Rect crop;
+    int bounces = 0;
+    uint32_t seed = 0;
+    Sampler sampler = Sampler::sobol;
+    int log2_samples = 10;  ///< FrameParams::log2_samples
+    uint32_t local_size = 0;
+    std::string kernel_dir;
+};
+
+/// Pixels [first, first + count) of the crop, and a range of samples.
+struct Work {
+    uint32_t first_pixel = 0, pixel_count = 0;
+    uint32_t first_sample = 0, sample_count = 0;
+};
+
+/// Whether paths are written down as they are traced.
+enum class Recording { off, on };
+
+class PathTracer {
+  public:
+    /// Flattens, builds, uploads and compiles; fills those parts of `stats`.
+    PathTracer(device::Device& device, const Scene& scene, const PathSettings& settings,
+               RenderStats& stats, Recording recording = Recording::off);
+
+    /// Traces and waits. Returns seconds on the device.
+    double add_samples(const Work& work);
+
+    /// Recording::on, one pixel: traces the samples and returns bounces + 2 vertices for each.
+    std::vector<shared::PathVertex> record_samples(uint32_t first_sample, uint32_t sample_count);
+
+    /// The crop's pixels as they are now.
+    std::vector<shared::FilmPixel> read_film();
+
+    uint32_t pixel_count() const { return pixel_count_; }
+
+  private:
+    void upload(const Scene& scene, const PathSettings& settings, RenderStats& stats);
+    void compile(const Plan& plan, const PathSettings& settings, RenderStats& stats);
+
+    device::Device& device_;
+    DeviceScene scene_;
+    cl::Buffer params_, film_;
+    cl::Kernel kernel_;
+    cl_uint first_work_arg_ = 0;
+    uint32_t pixel_count_ = 0;
+    uint32_t local_size_ = 0;
+    uint32_t vertices_per_path_ = 0;
+};
+
+shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& settings,
+                                      std::size_t light_count);
+
+}  // namespace wedge::rendering

@@ -1,0 +1,41 @@
+#include "host/render/plan.hpp"
+
+#include <vector>
+
+#include "wedge/render.hpp"
+
+namespace wedge::rendering {
+namespace {
+
+std::vector<bool> used_materials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Instance& instance : scene.instances) {
+        if (instance.material) {
+            used[*instance.material] = true;
+            continue;
+        }
+        for (uint32_t material : scene.meshes[instance.mesh].material_of) used[material] = true;
+    }
+    return used;
+}
+
+}  // namespace
+
+Plan make_plan(const Scene& scene) {
+    Plan plan;
+    const std::vector<bool> used = used_materials(scene);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        if (!used[i]) continue;
+        plan.specular |= m.model != SpecularModel::none && m.specular != Vec3(0);
+        plan.textures |=
+            m.diffuse_texture >= 0 || m.specular_texture >= 0 || m.emission_texture >= 0;
+    }
+    plan.path_program.file = "kernels/path.cl";
+    plan.path_program.defines = {"WEDGE_SAMPLE_BATCH=" + std::to_string(kSampleBatch)};
+    if (plan.specular) plan.path_program.defines.push_back("WEDGE_SPECULAR=1");
+    if (plan.textures) plan.path_program.defines.push_back("WEDGE_TEXTURES=1");
+    return plan;
+}
+
+}  // namespace wedge::rendering

@@ -1,0 +1,71 @@
+#include "host/render/render_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "wedge/error.hpp"
+
+namespace wedge::rendering {
+namespace {
+
+constexpr uint32_t kMaxSamples = 1u << 24;  // a float film counts samples up to here
+constexpr int kMaxBounces = 1024;
+// Length of the Sobol stretch where the number of samples is not known beforehand.
+constexpr int kOpenEndedLog2 = 10;
+
+[[noreturn]] void refuse(const std::string& message) {
+    throw Error(ErrorKind::usage, message);
+}
+
+Rect checked_crop(const Film& film, const std::optional<Rect>& crop) {
+    if (!crop) return {0, 0, film.width, film.height};
+    const bool inside = crop->x >= 0 && crop->y >= 0 && crop->width > 0 && crop->height > 0 &&
+                        crop->width <= film.width - crop->x &&
+                        crop->height <= film.height - crop->y;
+    if (!inside)
+        refuse(fmt::format("the crop {},{} {}x{} does not lie in the film of {}x{} pixels", crop->x,
+                           crop->y, crop->width, crop->height, film.width, film.height));
+    return *crop;
+}
+
+}  // namespace
+
+uint32_t sample_count(const Scene& scene, const RenderOptions& options) {
+    if (options.samples_per_pixel) {
+        const int samples = *options.samples_per_pixel;
+        if (samples < 1 || uint32_t(samples) > kMaxSamples)
+            refuse(fmt::format("samples per pixel must be from 1 to {}, got {}", kMaxSamples,
+                               samples));
+        return uint32_t(samples);
+    }
+    if (options.time_limit_s) return kMaxSamples;
+    return uint32_t(scene.defaults.samples_per_pixel);
+}
+
+PathSettings make_path_settings(const Scene& scene, const RenderOptions& options) {
+    PathSettings settings;
+    settings.crop = checked_crop(scene.film, options.crop);
+    settings.bounces = options.bounces.value_or(scene.defaults.bounces);
+    if (settings.bounces < 0 || settings.bounces > kMaxBounces)
+        refuse(fmt::format("bounces must be from 0 to {}, got {}", kMaxBounces, settings.bounces));
+    if (options.time_limit_s && !(*options.time_limit_s > 0))
+        refuse(fmt::format("the time must be positive, got {} s", *options.time_limit_s));
+    if (options.sample_offset % kSampleBatch != 0)
+        refuse(fmt::format("the sample offset must be a multiple of {}, got {}", kSampleBatch,
+                           options.sample_offset));
+    const uint32_t samples = sample_count(scene, options);
+    if (samples > kMaxSamples - std::min(options.sample_offset, kMaxSamples))
+        refuse(fmt::format("sample offset and samples together must be at most {}", kMaxSamples));
+    settings.seed = options.seed;
+    settings.sampler = options.sampler;
+    const bool open_ended = options.time_limit_s && !options.samples_per_pixel;
+    settings.log2_samples =
+        open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
+    settings.local_size = options.local_size;
+    settings.kernel_dir = options.kernel_dir;
+    return settings;
+}
+
+}  // namespace wedge::rendering

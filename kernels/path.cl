@@ -1,0 +1,196 @@
+/* Path tracing: the plain Monte Carlo estimate of the light that reaches every pixel, unbiased for paths of
+   up to `bounces` indirect bounces. One work-item owns one pixel and sums its samples in order.
+
+   At each vertex one light is sampled (next-event estimation); where the path goes on anyway, light that
+   the ray happens to meet counts too, both weighted by the balance heuristic (Veach 1997, eq. 9.8).
+
+   WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
+   WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
+#include "lib/film.clh"
+#include "lib/light.clh"
+#include "lib/random.clh"
+#include "lib/replay.clh"
+#include "wedge/shared/frame.h"
+
+typedef struct {
+    float3 emission, direct, indirect;
+    float3 albedo, normal, position;
+    float depth;
+    float hit; /* 1 if the camera ray met anything */
+    uint rays;
+    WEDGE_REPLAY_FIELD
+} PathResult;
+
+/* Adds radiance found after `scatterings` surfaces to the part of the image it belongs to. */
+inline void add_radiance(PathResult* result, int scatterings, float3 radiance) {
+    if (scatterings == 0)
+        result->emission += radiance;
+    else if (scatterings == 1)
+        result->direct += radiance;
+    else
+        result->indirect += radiance;
+}
+
+inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
+    Ray ray;
+    ray.origin = camera->position.xyz;
+    ray.direction = normalize(camera->corner.xyz + camera->step_x.xyz * film_px.x +
+                              camera->step_y.xyz * film_px.y);
+    ray.t_max = INFINITY;
+    ray.source = WEDGE_NO_PRIMITIVE;
+    return ray;
+}
+
+/* True if light from a point at `wi` can reach and leave the surface: the face and the shading normal must
+   agree that it is above. */
+inline bool is_above(const Surface* s, float3 wi) {
+    return dot(s->face_normal, wi) > 0.0f && dot(s->normal, wi) > 0.0f;
+}
+
+/* Light that arrives straight from a sampled light and is scattered to wo. `weighted`: the path goes on
+   and may meet the same light by itself. */
+inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
+                            float choice, float2 u, bool weighted, PathResult* result) {
+    const float3 none = (float3)(0.0f);
+    const LightSample light = sample_light(scene, choice, u);
+    const float3 d = light.position - s->position;
+    const float distance2 = dot(d, d);
+    if (!(distance2 > 0.0f)) return none;
+    const float3 wi = d * rsqrt(distance2);
+    if (!is_above(s, wi)) return none;
+
+    const float cos_light = light.is_point ? 1.0f : -dot(light.normal, wi);
+    if (!(cos_light > 0.0f)) return none;
+    float pdf_bsdf;
+    const float3 value = eval_bsdf(f, s->normal, wo, wi, &pdf_bsdf);
+    if (!(max_component(value) > 0.0f)) return none;
+
+    Ray shadow;
+    shadow.origin = offset_origin(s->position, s->position_error, s->face_normal, wi);
+    const float3 end = light.is_point
+                           ? light.position
+                           : offset_origin(light.position, light.position_error, light.normal, -wi);
+    shadow.direction = end - shadow.origin;
+    shadow.t_max = 1.0f - 0x1p-20f;
+    shadow.source = s->primitive;
+    result->rays += 1;
+    if (trace_occluded(scene->nodes, scene->blocks, shadow)) return none;
+
+    const float pdf_light = light.pdf * distance2 / cos_light; /* per solid angle */
+    const float weight =
+        weighted && !light.is_point ? pdf_light / (pdf_light + pdf_bsdf) : 1.0f;
+    return value * light.radiance * (dot(s->normal, wi) * weight / pdf_light);
+}
+
+inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
+                             float3 view_axis, const Sampler* sampler WEDGE_REPLAY_PARAMS) {
+    PathResult result;
+    WEDGE_IF_REPLAY(result.record = record;)
+    result.emission = result.direct = result.indirect = (float3)(0.0f);
+    result.albedo = result.normal = result.position = (float3)(0.0f);
+    result.depth = result.hit = 0.0f;
+    result.rays = 0;
+    const float3 background = params->background.xyz;
+    const int bounces = params->bounces;
+    const bool background_shines = max_component(background) > 0.0f;
+
+    float3 throughput = (float3)(1.0f);
+    float pdf_direction = 0.0f; /* of the ray, over solid angle; 0: only this ray could find the light */
+    for (int depth = 0; depth <= bounces + 1; ++depth) {
+        result.rays += 1;
+        const Hit hit = trace_closest(scene->nodes, scene->blocks, ray);
+        if (hit.primitive == WEDGE_NO_PRIMITIVE) {
+            add_radiance(&result, depth, throughput * background);
+            WEDGE_IF_REPLAY(
+                record_miss(result.record + depth, ray.direction, throughput, background);)
+            break;
+        }
+        const float3 wo = -ray.direction;
+        const Surface s = surface_at(scene, hit, wo);
+
+        float area_pdf;
+        const float3 emitted = emitted_radiance(scene, &s, &area_pdf);
+        if (max_component(emitted) > 0.0f) {
+            float weight = 1.0f;
+            if (pdf_direction > 0.0f && area_pdf > 0.0f) {
+                const float pdf_light = area_pdf * hit.t * hit.t / fabs(dot(s.face_normal, wo));
+                weight = pdf_direction / (pdf_direction + pdf_light);
+            }
+            add_radiance(&result, depth, throughput * emitted * weight);
+        }
+        const Bsdf f = bsdf_at(scene, &s);
+        if (depth == 0) {
+            result.hit = 1.0f;
+            result.albedo = f.diffuse + f.specular;
+            result.normal = s.normal;
+            result.position = s.position;
+            result.depth = hit.t * dot(ray.direction, view_axis);
+        }
+        if (depth > bounces) {
+            WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, throughput,
+                                   emitted, (float3)(0.0f), s.primitive, s.material);)
+            break;
+        }
+
+        /* The last vertex goes on only to look for what light sampling finds badly or not at all. */
+        const bool goes_on = depth < bounces || f.specular_chance > 0.0f || background_shines;
+        const float2 choice = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE));
+        float3 direct = (float3)(0.0f);
+        if (scene->light_count > 0) {
+            const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
+            direct = sample_direct(scene, &s, &f, wo, choice.x, u, goes_on, &result);
+            add_radiance(&result, depth + 1, throughput * direct);
+        }
+        WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, throughput,
+                                   emitted, direct, s.primitive, s.material);)
+        if (!goes_on) break;
+
+        const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_DIRECTION));
+        const float3 wi = sample_bsdf(&f, s.normal, wo, choice.y, u);
+        if (!is_above(&s, wi)) break;
+        const float3 value = eval_bsdf(&f, s.normal, wo, wi, &pdf_direction);
+        if (!(pdf_direction > 0.0f)) break;
+        throughput *= value * (dot(s.normal, wi) / pdf_direction);
+        if (!(max_component(throughput) > 0.0f)) break;
+
+        ray.origin = offset_origin(s.position, s.position_error, s.face_normal, wi);
+        ray.direction = wi;
+        ray.t_max = INFINITY;
+        ray.source = s.primitive;
+    }
+    return result;
+}
+
+/* WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel at a time. */
+/* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel +
+   pixel_count) of the crop, counted along its rows. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH:
+   sums are taken batch by batch, so that any split of the samples into launches adds up alike. */
+__kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCENE_PARAMS,
+                          __global FilmPixel* restrict film, uint first_pixel, uint pixel_count,
+                          uint first_sample, uint sample_count WEDGE_REPLAY_PARAMS) {
+    const uint id = get_global_id(0);
+    if (id >= pixel_count) return;
+    const Scene scene = WEDGE_SCENE_ARGS;
+    const CameraRays camera = params->camera;
+    const float3 view_axis = normalize(cross(camera.step_x.xyz, camera.step_y.xyz));
+    const uint pixel = first_pixel + id;
+    const uint x = (uint)params->crop_x + pixel % (uint)params->crop_width;
+    const uint y = (uint)params->crop_y + pixel / (uint)params->crop_width;
+    const uint code = morton_code(x, y);
+
+    for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
+        FilmPixel sum = empty_film_pixel();
+        for (uint i = 0; i < WEDGE_SAMPLE_BATCH && batch + i < sample_count; ++i) {
+            const Sampler sampler = make_sampler(params->sampler, params->seed, params->log2_samples,
+                                                 code, first_sample + batch + i);
+            const float2 jitter = draw_2d(&sampler, WEDGE_DIMENSION_FILM);
+            const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
+            const PathResult r = trace_path(
+                &scene, params, ray, view_axis,
+                &sampler WEDGE_IF_REPLAY(, record + (batch + i) * (uint)(params->bounces + 2)));
+            add_sample(&sum, r.emission, r.direct, r.indirect, r.rays);
+            add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
+        }
+        film[pixel] = sum_film_pixels(film[pixel], sum);
+    }
+}

@@ -1,0 +1,56 @@
+/* The sampling routines of kernels/lib, laid open for the tests in tests/render. */
+#include "lib/light.clh"
+#include "lib/random.clh"
+
+__kernel void draw_points(int kind, uint seed, int log2_samples, uint pixel, uint first_sample,
+                          uint dimension, uint count, __global float2* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const Sampler s = make_sampler(kind, seed, log2_samples, pixel, first_sample + id);
+    out[id] = draw_2d(&s, dimension);
+}
+
+/* parameters: diffuse (grey), specular (grey), exponent, model; normal is +z. */
+inline Bsdf test_bsdf(float4 parameters) {
+    Bsdf f;
+    f.diffuse = (float3)(parameters.x);
+    f.specular = (float3)(parameters.y);
+    f.exponent = parameters.z;
+    f.model = (int)parameters.w;
+    set_specular_chance(&f);
+    return f;
+}
+
+__kernel void sample_bsdf_directions(float4 parameters, float4 wo, uint seed, uint count,
+                                     __global float4* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const Bsdf f = test_bsdf(parameters);
+    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 0u, id);
+    const float3 n = (float3)(0.0f, 0.0f, 1.0f);
+    const float3 wi = sample_bsdf(&f, n, wo.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
+    float pdf;
+    const float3 value = eval_bsdf(&f, n, wo.xyz, wi, &pdf);
+    out[id] = (float4)(wi, pdf > 0.0f ? value.x * wi.z / pdf : 0.0f);
+}
+
+/* out: value, pdf */
+__kernel void eval_bsdf_directions(float4 parameters, float4 wo, __global const float4* wi,
+                                   uint count, __global float2* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const Bsdf f = test_bsdf(parameters);
+    float pdf;
+    const float3 value = eval_bsdf(&f, (float3)(0.0f, 0.0f, 1.0f), wo.xyz, wi[id].xyz, &pdf);
+    out[id] = (float2)(value.x, pdf);
+}
+
+/* out: position, pdf */
+__kernel void sample_light_points(WEDGE_SCENE_PARAMS, uint seed, uint count, __global float4* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const Scene scene = WEDGE_SCENE_ARGS;
+    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 0u, id);
+    const LightSample light = sample_light(&scene, draw_2d(&s, 0).x, draw_2d(&s, 1));
+    out[id] = (float4)(light.position, light.pdf);
+}
