@@ -4,15 +4,13 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/image_support.hpp"
 #include "host/cli/messages.hpp"
 #include "wedge/error.hpp"
-
-#ifndef WEDGE_VERSION
-#define WEDGE_VERSION "unknown version"
-#endif
+#include "wedge/render.hpp"
 
 namespace wedge::cli {
 namespace {
@@ -21,7 +19,7 @@ constexpr std::size_t kHelpColumn = 32;
 
 void set_up(CLI::App& app) {
     app.require_subcommand(1);
-    app.set_version_flag("--version", "wedge " WEDGE_VERSION);
+    app.set_version_flag("--version", std::string("wedge ") + version());
     app.get_formatter()->column_width(kHelpColumn);
     app.footer("`wedge COMMAND --help` lists the options of a command.");
     register_render(app);

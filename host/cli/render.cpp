@@ -70,11 +70,17 @@ void write_outputs(const RenderArguments& arguments, const RenderJob& job, const
     if (first_error) throw *first_error;
 }
 
-void write_stats(const RenderArguments& arguments, const std::string& json) {
-    if (arguments.stats_file.empty()) return;
-    write_file_atomically(arguments.stats_file, json);
-    fmt::print("{}\n", arguments.stats_file);
+void write_stats(const std::string& file, const std::string& json) {
+    write_file_atomically(file, json);
+    fmt::print("{}\n", file);
     std::fflush(stdout);
+}
+
+[[noreturn]] void end_without_image(const RenderStats& stats) {
+    if (!stats.interrupted)
+        throw Error(ErrorKind::device, "no sample was rendered; no image was written");
+    say("stopped before the first sample; no image was written");
+    throw Interrupted{};
 }
 
 void run(const RenderArguments& arguments) {
@@ -92,24 +98,18 @@ void run(const RenderArguments& arguments) {
     if (job.pixel) return replay(scene, job);
 
     const Frame frame = render_with_progress(scene, job.options);
-    const Outcome outcome = judge(scene, job.options, frame.stats);
-    if (frame.stats.samples == 0) {
-        if (frame.stats.interrupted) {
-            say("stopped before the first sample; nothing was written");
-            throw Interrupted{};
-        }
-        throw Error(ErrorKind::device, "no sample was rendered; nothing was written");
-    }
+    const RenderStats& stats = frame.stats;
+    if (stats.samples == 0) end_without_image(stats);
     write_outputs(arguments, job, frame.image,
                   arguments.exposure.value_or(scene.defaults.exposure));
-    write_stats(arguments, stats_json(frame.stats, outcome, arguments.scene, load_s));
-    report(frame.stats, outcome, scene, job.options, load_s);
-    if (frame.stats.interrupted) throw Interrupted{};
-    if (outcome.is_short)
+    if (!arguments.stats_file.empty())
+        write_stats(arguments.stats_file,
+                    stats_json(stats, scene, job.options, arguments.scene, load_s));
+    report(stats, scene, job.options, load_s);
+    if (!stats.failure.empty())
         throw Error(ErrorKind::device,
-                    fmt::format("the device failed after {:.4g} of {} samples per pixel; what was "
-                                "rendered until then is saved",
-                                outcome.samples_per_pixel, outcome.samples_per_pixel_asked));
+                    stats.failure + "\nthe image holds the samples from before this");
+    if (stats.interrupted) throw Interrupted{};
 }
 
 void add_what_to_render(CLI::App& command, RenderArguments& a) {
