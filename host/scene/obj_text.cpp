@@ -1,0 +1,131 @@
+#include "host/scene/obj_text.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+
+namespace wedge::scene {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(kBlank);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+/// Takes the first line off `text`.
+std::string_view take_line(std::string_view& text) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return trimmed(line);
+}
+
+/// Takes the first word off a trimmed line.
+std::string_view take_word(std::string_view& line) {
+    const std::size_t end = line.find_first_of(kBlank);
+    const std::string_view word = line.substr(0, end);
+    line = end == std::string_view::npos ? std::string_view() : trimmed(line.substr(end));
+    return word;
+}
+
+bool looks_like_number(std::string_view word) {
+    const std::size_t sign = !word.empty() && (word[0] == '+' || word[0] == '-');
+    return word.size() > sign && (word[sign] == '.' || (word[sign] >= '0' && word[sign] <= '9'));
+}
+
+void join_continued_lines(std::string& text) {
+    for (std::size_t at = text.find("\\\n"); at != std::string::npos; at = text.find("\\\n", at))
+        text.replace(at, 2, "  ");
+    for (std::size_t at = text.find("\\\r\n"); at != std::string::npos;
+         at = text.find("\\\r\n", at))
+        text.replace(at, 3, "   ");
+}
+
+/// How many positions, texture coordinates and normals: in the order a corner names them.
+struct Counts {
+    long long of[3] = {0, 0, 0};
+
+    void count(std::string_view keyword) {
+        if (keyword == "v") ++of[0];
+        if (keyword == "vt") ++of[1];
+        if (keyword == "vn") ++of[2];
+    }
+};
+
+constexpr const char* kIndexName[3] = {"vertex", "texture coordinate", "normal"};
+constexpr const char* kCountName[3] = {"vertices", "texture coordinates", "normals"};
+
+/// What is wrong with one corner, `v/vt/vn`.
+std::optional<std::string> flaw(std::string_view corner, const Counts& so_far,
+                                const Counts& total) {
+    for (int part = 0; part < 3 && !corner.empty(); ++part) {
+        const std::size_t slash = corner.find('/');
+        const std::string_view digits = corner.substr(0, slash);
+        corner.remove_prefix(slash == std::string_view::npos ? corner.size() : slash + 1);
+        if (part == 1 && digits.empty()) continue;  // v//vn
+        long long index = 0;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), index);
+        if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
+            return fmt::format("\"{}\" is no {} index", digits, kIndexName[part]);
+        const bool named =
+            index > 0 ? index <= total.of[part] : index < 0 && -index <= so_far.of[part];
+        if (error == std::errc::result_out_of_range || !named)
+            return fmt::format("{} index {} is out of range, the file has {} {}", kIndexName[part],
+                               digits, total.of[part], kCountName[part]);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+ObjFacts scan_obj(std::string& text) {
+    join_continued_lines(text);
+    ObjFacts facts;
+    std::size_t vertex = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+        std::string_view line = take_line(rest);
+        const std::string_view keyword = take_word(line);
+        if (keyword == "mtllib" && !line.empty()) facts.mtllib_lines.emplace_back(line);
+        if (keyword != "v") continue;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!looks_like_number(take_word(line)))
+                facts.bad_coordinates.push_back({vertex, axis});
+        ++vertex;
+    }
+    return facts;
+}
+
+std::string describe_bad_face(std::string_view text) {
+    Counts total;
+    for (std::string_view rest = text; !rest.empty();) {
+        std::string_view line = take_line(rest);
+        total.count(take_word(line));
+    }
+
+    Counts so_far;
+    std::size_t line_number = 0, face = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+        std::string_view line = take_line(rest);
+        ++line_number;
+        const std::string_view keyword = take_word(line);
+        so_far.count(keyword);
+        if (keyword != "f") continue;
+        ++face;
+        std::size_t corners = 0;
+        for (; !line.empty(); ++corners)
+            if (const auto what = flaw(take_word(line), so_far, total))
+                return fmt::format(":{}: face {}: {}", line_number, face, *what);
+        if (corners > kMostCorners)
+            return fmt::format(
+                ":{}: face {}: has {} corners, the limit is {}; triangulate the mesh", line_number,
+                face, corners, kMostCorners);
+    }
+    return "";
+}
+
+}  // namespace wedge::scene
