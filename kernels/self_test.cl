@@ -2,6 +2,7 @@
 // are exact, so that the host can ask for equality (host/device/self_test.cpp computes the same).
 #include "wedge/shared/bvh.h"
 #include "wedge/shared/frame.h"
+#include "wedge/shared/replay.h"
 #include "wedge/shared/scene.h"
 
 // PCG RXS-M-XS 32 (O'Neill 2014, section 6.3), stretched over the other integer operations in use.

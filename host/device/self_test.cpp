@@ -15,6 +15,7 @@
 #include "wedge/error.hpp"
 #include "wedge/shared/bvh.h"
 #include "wedge/shared/frame.h"
+#include "wedge/shared/replay.h"
 #include "wedge/shared/scene.h"
 
 namespace wedge::device {

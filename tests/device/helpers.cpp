@@ -53,7 +53,13 @@ Child::Child(const std::string& test_case, const Environment& environment) {
     if (pid_ != 0) return;
 
     // In the child, and only until exec: no other thread of the parent lives here.
-    for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
+    for (const auto& [name, value] : environment) {
+        if (value) {
+            ::setenv(name.c_str(), value->c_str(), 1);
+        } else {
+            ::unsetenv(name.c_str());
+        }
+    }
     const int file = ::open(output.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);

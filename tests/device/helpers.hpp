@@ -61,7 +61,8 @@ struct ChildResult {
     std::string output;  ///< stdout and stderr
 };
 
-using Environment = std::vector<std::pair<std::string, std::string>>;
+/// Variables to set, or to remove where there is no value.
+using Environment = std::vector<std::pair<std::string, std::optional<std::string>>>;
 
 /// A running copy of this test program that runs one test case (also a skipped one) with more
 /// environment: OpenCL drivers read theirs once a process.
