@@ -33,4 +33,15 @@ find_package(Threads REQUIRED)
 find_package(TBB CONFIG QUIET)
 if(WEDGE_WITH_IMAGE)
     find_package(OpenImageIO REQUIRED)
+    # Debian 12's exported target names folders of headers that its package does not depend on
+    # (OpenCV's), and CMake refuses targets with folders that are not there.
+    get_target_property(listed OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+    set(existing "")
+    foreach(folder IN LISTS listed)
+        if(EXISTS "${folder}")
+            list(APPEND existing "${folder}")
+        endif()
+    endforeach()
+    set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+        INTERFACE_INCLUDE_DIRECTORIES "${existing}")
 endif()
