@@ -1,0 +1,128 @@
+#include "host/image/decode.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "wedge/error.hpp"
+
+namespace wedge::image {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: cannot read the image: {}", file.string(), reason));
+}
+
+/// What the file system knows, said better than an image library would.
+void require_file(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::exists(status)) fail(file, "there is no such file");
+    if (fs::is_directory(status)) fail(file, "it is a folder");
+    if (fs::is_regular_file(status) && fs::file_size(file, error) == 0)
+        fail(file, "the file is empty (0 bytes)");
+}
+
+bool is_cmyk(const OIIO::ImageSpec& spec) {
+    for (const char* key : {"jpeg:ColorSpace", "tiff:ColorSpace", "oiio:ColorSpace"}) {
+        const std::string space = spec.get_string_attribute(key);
+        if (space == "CMYK" || space == "YCCK") return true;
+    }
+    return spec.nchannels >= 4 && spec.channel_name(0) == "C" && spec.channel_name(1) == "M";
+}
+
+void require_usable(const fs::path& file, const OIIO::ImageSpec& spec) {
+    if (spec.deep) fail(file, "it is a deep image; flatten it first");
+    if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
+        fail(file, fmt::format("its size is {} x {} x {} with {} channels", spec.width, spec.height,
+                               spec.depth, spec.nchannels));
+    if (std::size_t(spec.width) * std::size_t(spec.height) > kMaxPixels)
+        fail(file, fmt::format("{} x {} pixels are more than the {} that are taken; scale it down",
+                               spec.width, spec.height, kMaxPixels));
+    if (is_cmyk(spec)) fail(file, "its colours are CMYK; convert it to RGB");
+}
+
+/// libjpeg fills what is missing with grey and calls it a success. A whole file has an end marker
+/// after its last start of a scan (neither occurs inside compressed data; a thumbnail comes
+/// before).
+void require_whole_jpeg(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    const std::size_t scan = bytes.rfind("\xFF\xDA");
+    const std::size_t end = bytes.rfind("\xFF\xD9");
+    if (scan != std::string::npos && (end == std::string::npos || end < scan))
+        fail(file, "the file is truncated");
+}
+
+std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
+    OIIO::ImageSpec hints;
+    // Textures are multiplied into colours; dividing alpha out again would lose texels where it is
+    // 0.
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    OIIO::geterror();  // drops what an earlier call may have left
+    auto input = OIIO::ImageInput::open(file.string(), &hints);
+    if (!input) {
+        const std::string reason = OIIO::geterror();
+        fail(file, reason.empty() ? "no known image format" : reason);
+    }
+    return input;
+}
+
+}  // namespace
+
+DecodedImage decode(const fs::path& file, bool keep_bytes) {
+    require_file(file);
+    const auto input = open(file);
+    DecodedImage image;
+    image.spec = input->spec();
+    require_usable(file, image.spec);
+    if (input->format_name() == std::string_view("jpeg")) require_whole_jpeg(file);
+    image.type = keep_bytes && image.spec.format == OIIO::TypeDesc::UINT8 ? OIIO::TypeDesc::UINT8
+                                                                          : OIIO::TypeDesc::FLOAT;
+    const std::size_t byte_count =
+        image.pixel_count() * std::size_t(image.spec.nchannels) * image.type.size();
+    try {
+        // Not zeroed: a file that claims far more than it holds then costs address space, not
+        // memory.
+        image.values = std::make_unique_for_overwrite<std::byte[]>(byte_count);
+    } catch (const std::bad_alloc&) {
+        fail(file, fmt::format("it needs {} bytes of memory, which are not there", byte_count));
+    }
+    if (!input->read_image(0, 0, 0, -1, image.type, image.values.get()))
+        fail(file, input->geterror());
+    return image;
+}
+
+bool is_integer(const OIIO::ImageSpec& spec) {
+    return !spec.format.is_floating_point();
+}
+
+std::array<int, 4> rgba_channels(const OIIO::ImageSpec& spec, const fs::path& file) {
+    const auto find = [&](const char* name) { return spec.channelindex(name); };
+    const int alpha = find("A");
+    if (find("R") >= 0 && find("G") >= 0 && find("B") >= 0)
+        return {find("R"), find("G"), find("B"), alpha};
+    if (find("Y") >= 0) return {find("Y"), find("Y"), find("Y"), alpha};
+    switch (spec.nchannels) {
+        case 1:
+            return {0, 0, 0, -1};
+        case 2:
+            return {0, 0, 0, 1};
+        case 3:
+            return {0, 1, 2, -1};
+        case 4:
+            return {0, 1, 2, 3};
+        default:
+            break;
+    }
+    fail(file, fmt::format("none of its {} channels are called R, G, B or Y", spec.nchannels));
+}
+
+}  // namespace wedge::image

@@ -1,0 +1,72 @@
+// Image files to textures: RGBA, at 8 bits where the file has 8 bits, else linear float32.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "host/image/decode.hpp"
+#include "host/image/tone.hpp"
+#include "wedge/image_io.hpp"
+#include "wedge/log.hpp"
+
+namespace wedge {
+namespace {
+
+using image::DecodedImage;
+
+void fill_bytes(TextureImage& texture, const DecodedImage& decoded, std::array<int, 4> source) {
+    const std::size_t stride = std::size_t(decoded.spec.nchannels);
+    texture.texels.resize(decoded.pixel_count() * 4);
+    for (std::size_t i = 0; i < decoded.pixel_count(); ++i)
+        for (std::size_t c = 0; c < 4; ++c)
+            texture.texels[i * 4 + c] =
+                source[c] < 0 ? 255 : decoded.as_bytes()[i * stride + std::size_t(source[c])];
+}
+
+/// Returns how many texels had a value that is not finite; those values become 0.
+std::size_t fill_floats(TextureImage& texture, const DecodedImage& decoded,
+                        std::array<int, 4> source, bool decode_srgb) {
+    const std::size_t stride = std::size_t(decoded.spec.nchannels);
+    texture.texels.resize(decoded.pixel_count() * 4 * sizeof(float));
+    std::size_t non_finite = 0;
+    for (std::size_t i = 0; i < decoded.pixel_count(); ++i) {
+        float texel[4] = {0, 0, 0, 1};
+        bool finite = true;
+        for (std::size_t c = 0; c < 4; ++c) {
+            if (source[c] < 0) continue;
+            const float value = decoded.as_floats()[i * stride + std::size_t(source[c])];
+            finite = finite && std::isfinite(value);
+            if (!std::isfinite(value))
+                texel[c] = 0;
+            else
+                texel[c] = decode_srgb && c < 3 ? image::srgb_decode(value) : value;
+        }
+        non_finite += finite ? 0 : 1;
+        std::memcpy(texture.texels.data() + i * sizeof(texel), texel, sizeof(texel));
+    }
+    return non_finite;
+}
+
+}  // namespace
+
+TextureImage load_texture(const std::filesystem::path& file, bool is_colour) {
+    const DecodedImage decoded = image::decode(file, true);
+    const auto source = image::rgba_channels(decoded.spec, file);
+    TextureImage texture;
+    texture.width = decoded.spec.width;
+    texture.height = decoded.spec.height;
+    if (decoded.type == OIIO::TypeDesc::UINT8) {
+        texture.format = is_colour ? TextureFormat::srgb8 : TextureFormat::linear8;
+        fill_bytes(texture, decoded, source);
+        return texture;
+    }
+    texture.format = TextureFormat::float32;
+    const bool decode_srgb = is_colour && image::is_integer(decoded.spec);
+    const std::size_t non_finite = fill_floats(texture, decoded, source, decode_srgb);
+    if (non_finite > 0)
+        log_warning(fmt::format("{}: {} of {} texels have values that are not finite; 0 is used",
+                                file.string(), non_finite, decoded.pixel_count()));
+    return texture;
+}
+
+}  // namespace wedge
