@@ -26,11 +26,6 @@ constexpr double kDim = 0.1;
 constexpr float kIrradiance = kPi;
 constexpr float kBackground = 0.25f;
 
-/// Where to stand in a model that is an interior.
-struct Interior {
-    Vec3 anchor;  ///< well inside, with room around it
-};
-
 bool hit(const ProbeHit& h) {
     return std::isfinite(h.distance);
 }
@@ -46,8 +41,7 @@ float exit_distance(const Bounds& box, const Vec3& origin, const Vec3& direction
     return nearest;
 }
 
-/// Whether rays from all around towards the middle meet backs: the walls of a room are modelled
-/// from inside, those of an object from outside.
+/// Whether rays from all around meet mostly backs: a room without an outside.
 bool shows_backs_outside(const Mesh& mesh, const Bounds& box) {
     const float radius = glm::length(box.extent());
     int hits = 0, backs = 0;
@@ -59,31 +53,53 @@ bool shows_backs_outside(const Mesh& mesh, const Bounds& box) {
     return 2 * backs > hits;
 }
 
-std::optional<Interior> find_interior(const Mesh& mesh, const Bounds& box) {
-    if (mesh.triangles.size() > kMostProbedTriangles || !shows_backs_outside(mesh, box))
-        return std::nullopt;
+/// Whether three of four rays meet fronts. Closed objects show their backs from inside.
+bool is_enclosed(const std::vector<ProbeHit>& hits) {
+    const auto fronts =
+        std::count_if(hits.begin(), hits.end(), [](const ProbeHit& h) { return h.front; });
+    return 4 * fronts >= 3 * std::ptrdiff_t(hits.size());
+}
 
-    // Of three heights, the one with most free way in half of the directions; most must end at
-    // fronts.
+/// Whether half of the steep rays down meet a level floor, and half of the flat ones upright walls.
+/// Hollow objects (a pot, a car) have neither.
+bool has_floor_and_walls(const std::vector<Vec3>& directions, const std::vector<ProbeHit>& hits) {
+    constexpr float kSteep = 0.7f, kFlat = 0.3f, kTilt = 0.05f;
+    int steep = 0, level = 0, flat = 0, upright = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const float tilt = std::abs(hits[i].normal.y);
+        if (directions[i].y < -kSteep) {
+            ++steep;
+            level += hit(hits[i]) && tilt > 1 - kTilt;
+        } else if (std::abs(directions[i].y) < kFlat) {
+            ++flat;
+            upright += hit(hits[i]) && tilt < kTilt;
+        }
+    }
+    return 2 * level >= steep && 2 * upright >= flat;
+}
+
+/// The place to stand, of three heights the one with most free way in half of the directions.
+std::optional<Vec3> find_interior(const Mesh& mesh, const Bounds& box) {
+    std::optional<Vec3> best;
+    if (mesh.triangles.size() > kMostProbedTriangles) return best;
     const std::vector<Vec3> directions = sphere_directions(kProbeRays);
-    std::optional<Interior> best;
+    const bool room_for_sure = shows_backs_outside(mesh, box);
     float most_free = 0;
     for (const float height : {0.25f, 0.35f, 0.5f}) {
         Vec3 anchor = box.center();
         anchor.y = box.lower.y + height * box.extent().y;
         const std::vector<ProbeHit> hits = probe(mesh, anchor, directions);
+        if (!is_enclosed(hits)) continue;
+        if (!room_for_sure && !has_floor_and_walls(directions, hits)) continue;
         std::vector<float> free;
-        int fronts = 0;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             const float exit = exit_distance(box, anchor, directions[i]);
             free.push_back(std::min(hits[i].distance, exit) / exit);
-            fronts += hits[i].front;
         }
-        if (4 * fronts < 3 * kProbeRays) continue;
         std::nth_element(free.begin(), free.begin() + kProbeRays / 2, free.end());
         if (free[kProbeRays / 2] <= most_free) continue;
         most_free = free[kProbeRays / 2];
-        best = Interior{anchor};
+        best = anchor;
     }
     return best;
 }
@@ -117,11 +133,10 @@ Camera looking_from(const Bounds& box, const Vec3& towards_camera, float fov_rad
 }
 
 /// In front of an open side if there is one (a stage), else at the far end of the longest way.
-Camera interior_camera(const Mesh& mesh, const Bounds& box, const Interior& interior,
-                       const Film& film) {
+Camera interior_camera(const Mesh& mesh, const Bounds& box, const Vec3& anchor, const Film& film) {
     const std::array<Vec3, 4> sides{Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(-1, 0, 0)};
     for (const Vec3& side : sides)
-        if (!hit(probe(mesh, interior.anchor, {side})[0]))
+        if (!hit(probe(mesh, anchor, {side})[0]))
             return looking_from(box, side, kObjectFov_rad, film);
 
     std::vector<Vec3> ways;
@@ -129,14 +144,14 @@ Camera interior_camera(const Mesh& mesh, const Bounds& box, const Interior& inte
         const float angle = float(i) * kPi / 8;
         ways.emplace_back(std::cos(angle), 0, std::sin(angle));
     }
-    const std::vector<ProbeHit> hits = probe(mesh, interior.anchor, ways);
+    const std::vector<ProbeHit> hits = probe(mesh, anchor, ways);
     std::size_t longest = 0;
     for (std::size_t i = 1; i < hits.size(); ++i)
         if (hits[i].distance > hits[longest].distance) longest = i;
     Camera camera;
     camera.vertical_fov_rad = kInteriorFov_rad;
-    camera.target = interior.anchor;
-    camera.position = interior.anchor + 0.9f * hits[longest].distance * ways[longest];
+    camera.target = anchor;
+    camera.position = anchor + 0.9f * hits[longest].distance * ways[longest];
     return camera;
 }
 
@@ -165,15 +180,14 @@ RectLight object_light(const Bounds& box, const Camera& camera) {
     return light_towards(box.center(), box.center() + 3 * radius * direction, radius, kIrradiance);
 }
 
-RectLight interior_light(const Mesh& mesh, const Bounds& box, const Interior& interior) {
+RectLight interior_light(const Mesh& mesh, const Bounds& box, const Vec3& anchor) {
     // Under the ceiling; where there is none, above the roof. Walls are far off and oblique: twice
     // the light.
-    const ProbeHit above = probe(mesh, interior.anchor, {Vec3(0, 1, 0)})[0];
-    Vec3 center = interior.anchor;
+    const ProbeHit above = probe(mesh, anchor, {Vec3(0, 1, 0)})[0];
+    Vec3 center = anchor;
     center.y = hit(above) ? center.y + 0.9f * above.distance : box.upper.y + 0.05f * box.extent().y;
     const float width = std::min(box.extent().x, box.extent().z);
-    return light_towards(interior.anchor, center, (hit(above) ? 0.25f : 0.5f) * width,
-                         2 * kIrradiance);
+    return light_towards(anchor, center, (hit(above) ? 0.25f : 0.5f) * width, 2 * kIrradiance);
 }
 
 /// Irradiance on the model's box if all its emitted power fell on it evenly.
@@ -205,7 +219,7 @@ void add_default_view(Scene& scene) {
         throw Error(ErrorKind::bad_input,
                     scene.name + ".obj: empty mesh: no triangle with finite vertices and an area");
 
-    const std::optional<Interior> interior = find_interior(mesh, box);
+    const std::optional<Vec3> interior = find_interior(mesh, box);
     // From the front and right, a little above.
     const Vec3 three_quarters = glm::normalize(Vec3(0.55f, 0.4f, 1));
     scene.camera = interior ? interior_camera(mesh, box, *interior, scene.film)

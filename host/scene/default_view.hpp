@@ -9,8 +9,9 @@ namespace wedge::scene {
 /// off too little light of its own, adds a rectangle and a grey background. Says in the log what it
 /// chose. All sizes are fractions of the model's, so that scale does not matter.
 ///
-/// A model is seen from outside, unless most of what is seen from some point inside is the front of
-/// surfaces far off: then it is an interior, and the camera stands in it.
+/// A model is seen from outside unless it is a room: from a point in its middle three of four rays
+/// meet fronts of surfaces, and either rays from outside meet mostly backs, or there are a level
+/// floor and upright walls. Then the camera stands inside, or before the open side if there is one.
 /// Throws Error(bad_input) if the model has no extent.
 void add_default_view(Scene& scene);
 

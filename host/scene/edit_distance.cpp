@@ -48,8 +48,8 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
         known.begin(), known.end(),
         [&](const std::string& a, const std::string& b) { return distance(a) < distance(b); });
 
-    // A third of the letters wrong is still a slip; more is another word.
-    if (distance(*nearest) <= std::max<std::size_t>(1, word.size() / 3))
+    // Half of the letters of a short word wrong, or three of a long one, is still a slip.
+    if (distance(*nearest) <= std::clamp<std::size_t>(word.size() / 2, 1, 3))
         return "; did you mean \"" + *nearest + "\"?";
 
     std::string list = "; known are ";

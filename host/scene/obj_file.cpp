@@ -59,10 +59,13 @@ ParsedObj parse(const std::filesystem::path& file, const LoadOptions& options) {
     const bool parsed = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &remarks,
                                          &problem, &stream, &mtl_reader, /*triangulate=*/false,
                                          /*default_vcols_fallback=*/false);
-    if (!parsed || !is_sound(obj)) {
-        std::string what = describe_bad_face(stream.view());
-        if (what.empty()) what = ": cannot be read as OBJ: " + problem;
-        throw Error(ErrorKind::bad_input, file.string() + what);
+    const bool sound = parsed && is_sound(obj);
+    if (!sound || facts.may_overflow) {
+        const std::string what = describe_bad_face(stream.view());
+        if (!what.empty()) throw Error(ErrorKind::bad_input, file.string() + what);
+        if (!sound)
+            throw Error(ErrorKind::bad_input,
+                        file.string() + ": cannot be read as OBJ: " + problem);
     }
     obj.mtl_of = mtl_reader.file_of();
     for (const BadCoordinate& bad : facts.bad_coordinates)

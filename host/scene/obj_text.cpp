@@ -45,6 +45,16 @@ void join_continued_lines(std::string& text) {
         text.replace(at, 3, "   ");
 }
 
+bool has_long_number(std::string_view line) {
+    constexpr int kDigitsOfInt = 10;
+    int run = 0;
+    for (const char c : line) {
+        run = c >= '0' && c <= '9' ? run + 1 : 0;
+        if (run >= kDigitsOfInt) return true;
+    }
+    return false;
+}
+
 /// How many positions, texture coordinates and normals: in the order a corner names them.
 struct Counts {
     long long of[3] = {0, 0, 0};
@@ -91,6 +101,7 @@ ObjFacts scan_obj(std::string& text) {
         std::string_view line = take_line(rest);
         const std::string_view keyword = take_word(line);
         if (keyword == "mtllib" && !line.empty()) facts.mtllib_lines.emplace_back(line);
+        if (keyword == "f" && !facts.may_overflow) facts.may_overflow = has_long_number(line);
         if (keyword != "v") continue;
         for (int axis = 0; axis < 3; ++axis)
             if (!looks_like_number(take_word(line)))

@@ -17,6 +17,7 @@ struct BadCoordinate {
 struct ObjFacts {
     std::vector<std::string> mtllib_lines;  ///< what follows `mtllib`, trimmed
     std::vector<BadCoordinate> bad_coordinates;
+    bool may_overflow = false;  ///< an index has so many digits that the parser may wrap it around
 };
 
 /// One pass over the lines. Lines continued with a backslash are joined in place.

@@ -22,7 +22,8 @@ std::vector<ProbeHit> probe(const Mesh& mesh, const Vec3& origin,
             const Vec3 across = glm::cross(d, a);
             const float u = -glm::dot(ac, across) / determinant;
             const float v = glm::dot(ab, across) / determinant;
-            if (u >= 0 && v >= 0 && u + v <= 1) hits[i] = {t, determinant < 0};
+            if (u >= 0 && v >= 0 && u + v <= 1)
+                hits[i] = {t, normal / glm::length(normal), determinant < 0};
         }
     }
     return hits;

@@ -9,7 +9,8 @@ namespace wedge::scene {
 
 struct ProbeHit {
     float distance = INFINITY;  ///< in lengths of the direction; infinite where nothing is hit
-    bool front = false;         ///< the front of a triangle was hit
+    Vec3 normal{0};             ///< of the triangle's front, unit
+    bool front = false;         ///< the front was hit
 };
 
 /// Nearest hits of rays from one point, by trying every triangle: for a few dozen rays, once.
