@@ -1,0 +1,51 @@
+// A set of triangles on the device, ready for rays.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/bvh/bvh.hpp"
+#include "host/device/device.hpp"
+#include "host/device/program.hpp"
+#include "meshes.hpp"
+
+namespace wedge::test {
+
+/// As kernels/trace.cl reads and writes them.
+struct PackedRay {
+    float ox, oy, oz, t_max;
+    float dx, dy, dz;
+    uint32_t source;
+};
+struct PackedHit {
+    float t, u, v;
+    uint32_t primitive;
+    bool operator==(const PackedHit&) const = default;
+};
+
+PackedRay make_ray(const Vec3& origin, const Vec3& direction, float t_max = INFINITY,
+                   uint32_t source = WEDGE_NO_PRIMITIVE);
+
+/// The device all tests of this program share.
+device::Device& test_device();
+
+class Tracer {
+  public:
+    /// `portable`: without the builtins of the processor.
+    explicit Tracer(const Triangles& triangles, bool portable = false);
+    std::vector<PackedHit> closest(std::span<const PackedRay> rays) { return run(closest_, rays); }
+    std::vector<PackedHit> occluded(std::span<const PackedRay> rays) {
+        return run(occluded_, rays);
+    }
+    const bvh::Bvh& tree() const { return tree_; }
+
+  private:
+    std::vector<PackedHit> run(cl::Kernel& kernel, std::span<const PackedRay> rays);
+
+    bvh::Bvh tree_;
+    cl::Buffer nodes_, blocks_;
+    cl::Kernel closest_, occluded_;
+};
+
+}  // namespace wedge::test
