@@ -42,7 +42,12 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     if (known.empty()) return "";
     const std::string wanted = lower(word);
     const auto distance = [&](const std::string& other) {
-        return edit_distance(wanted, lower(other));
+        // A beginning (vertical_fov of vertical_fov_deg) is one slip, however much is missing.
+        constexpr std::size_t kShortestBeginning = 3;
+        const std::string name = lower(other);
+        const bool begins = wanted.size() >= kShortestBeginning && name.starts_with(wanted);
+        const std::size_t edits = edit_distance(wanted, name);
+        return begins ? std::min<std::size_t>(edits, 1) : edits;
     };
     const auto nearest = std::min_element(
         known.begin(), known.end(),
