@@ -1,6 +1,19 @@
-# The command-line program, `wedge`.
-file(GLOB cli_sources CONFIGURE_DEPENDS host/cli/*.cpp)
+# The command-line program, `wedge`, with what it measures.
+file(GLOB cli_sources CONFIGURE_DEPENDS host/cli/*.cpp bench/*.cpp)
+if(NOT WEDGE_WITH_IMAGE)
+    list(REMOVE_ITEM cli_sources ${PROJECT_SOURCE_DIR}/host/cli/compare.cpp)
+endif()
 add_executable(wedge_program ${cli_sources})
 set_target_properties(wedge_program PROPERTIES OUTPUT_NAME wedge)
 target_link_libraries(wedge_program PRIVATE wedge wedge_options wedge_dep_glm wedge_dep_fmt
     wedge_dep_json wedge_dep_cli11 wedge_dep_opencl_hpp)
+if(TBB_FOUND)
+    target_compile_definitions(wedge_program PRIVATE WEDGE_HAVE_TBB)
+endif()
+if(WEDGE_WITH_EMBREE)
+    find_package(embree 3 QUIET)
+    if(embree_FOUND)
+        target_compile_definitions(wedge_program PRIVATE WEDGE_HAVE_EMBREE)
+        target_link_libraries(wedge_program PRIVATE embree)
+    endif()
+endif()

@@ -37,7 +37,10 @@ bool is_beauty(const std::string& channel) {
 
 std::string layer_names() {
     std::string names;
-    for (const char* layer : kLayers) names += (names.empty() ? "" : ", ") + std::string(layer);
+    for (const char* layer : kLayers) {
+        if (!names.empty()) names += ", ";
+        names += layer;
+    }
     return names;
 }
 
