@@ -37,7 +37,9 @@ int sensitivity_radius_px() {
 }
 
 Plane<float> blur(const Plane<float>& plane, SensitivityTerm term) {
-    const auto weights = gaussian_weights<float>(sigma_px(term), sensitivity_radius_px());
+    // Beyond six deviations the weights are below float32's resolution of the sum.
+    const int radius = std::min(sensitivity_radius_px(), int(std::ceil(6 * sigma_px(term))));
+    const auto weights = gaussian_weights<float>(sigma_px(term), radius);
     return filter_separable(plane, weights, weights, Border::nearest);
 }
 
@@ -74,7 +76,8 @@ Colour hunt_lab(Colour rgb) {
 
 /// Abasi et al. 2020: city-block in lightness, Euclidean in chroma.
 float hyab(const Colour& p, const Colour& q) {
-    return std::abs(p[0] - q[0]) + std::hypot(p[1] - q[1], p[2] - q[2]);
+    const float da = p[1] - q[1], db = p[2] - q[2];
+    return std::abs(p[0] - q[0]) + std::sqrt(da * da + db * db);
 }
 
 /// Compresses large differences: kPc of the range takes kPt of the scale (Sec. 4.1.3).

@@ -6,12 +6,12 @@
 
 namespace wedge::image {
 
-/// Keeps the keys of Wedge apart from those of OpenEXR and of other programs.
+/// Keeps what Wedge says apart from the attributes of OpenEXR and of other programs.
 inline constexpr std::string_view kMetadataPrefix = "wedge:";
 
-/// `seed` is stored as the attribute `wedge:seed`.
+/// Keys are attribute names, `wedge:seed`; a key without the prefix gets it.
 inline std::string exr_attribute_name(const std::string& key) {
-    return std::string(kMetadataPrefix) + key;
+    return key.starts_with(kMetadataPrefix) ? key : std::string(kMetadataPrefix) + key;
 }
 
 }  // namespace wedge::image

@@ -47,8 +47,7 @@ void decode_srgb(Image& image) {
 void copy_metadata(Image& image, const OIIO::ImageSpec& spec) {
     for (const auto& attribute : spec.extra_attribs) {
         const std::string name = attribute.name().string();
-        if (name.starts_with(image::kMetadataPrefix))
-            image.metadata[name.substr(image::kMetadataPrefix.size())] = attribute.get_string();
+        if (name.starts_with(image::kMetadataPrefix)) image.metadata[name] = attribute.get_string();
     }
 }
 

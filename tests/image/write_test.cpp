@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "tests/image/support.hpp"
@@ -23,7 +24,9 @@ Image layered_image(int width, int height) {
                       "N.X", "N.Y", "N.Z", "Z", "P.X",      "spp",      "variance.R", "emission.B"};
     for (std::size_t i = 0; i < std::size_t(width) * height * image.channels.size(); ++i)
         image.pixels.push_back(float(std::sin(double(i)) * std::pow(10.0, double(i % 60) - 30)));
-    image.metadata = {{"scene", "cornell \"box\"\nsecond line"}, {"seed", "17"}, {"device", "é µ"}};
+    image.metadata = {{"wedge:scene", "cornell \"box\"\nsecond line"},
+                      {"wedge:seed", "17"},
+                      {"wedge:device", "é µ"}};
     return image;
 }
 
@@ -93,6 +96,15 @@ TEST_CASE("other_readers_see_colour_first_and_prefixed_metadata") {
     CHECK(spec.alpha_channel == 3);
     CHECK(spec.get_string_attribute("wedge:seed") == "17");
     CHECK(spec.get_string_attribute("compression") == "zip");
+}
+
+TEST_CASE("metadata_without_the_prefix_gets_it") {
+    const TemporaryFolder folder;
+    Image image = rgb_image(1, 1, 0);
+    image.metadata = {{"note", "a"}, {"wedge:seed", "b"}};
+    write_exr(folder / "image.exr", image);
+    CHECK(read_image(folder / "image.exr").metadata ==
+          std::map<std::string, std::string>{{"wedge:note", "a"}, {"wedge:seed", "b"}});
 }
 
 TEST_CASE("png_values_follow_the_srgb_formula") {
