@@ -52,15 +52,9 @@ inline bool is_above(const Surface* s, float3 wi) {
 inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
                             float choice, float2 u, bool weighted, PathResult* result) {
     const float3 none = (float3)(0.0f);
-    const LightSample light = sample_light(scene, choice, u);
-    const float3 d = light.position - s->position;
-    const float distance2 = dot(d, d);
-    if (!(distance2 > 0.0f)) return none;
-    const float3 wi = d * rsqrt(distance2);
-    if (!is_above(s, wi)) return none;
-
-    const float cos_light = light.is_point ? 1.0f : -dot(light.normal, wi);
-    if (!(cos_light > 0.0f)) return none;
+    const LightSample light = sample_light(scene, s->position, choice, u);
+    const float3 wi = light.direction;
+    if (!(light.pdf > 0.0f) || !is_above(s, wi)) return none;
     float pdf_bsdf;
     const float3 value = eval_bsdf(f, s->normal, wo, wi, &pdf_bsdf);
     if (!(max_component(value) > 0.0f)) return none;
@@ -76,10 +70,8 @@ inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f,
     result->rays += 1;
     if (trace_occluded(scene->nodes, scene->blocks, shadow)) return none;
 
-    const float pdf_light = light.pdf * distance2 / cos_light; /* per solid angle */
-    const float weight =
-        weighted && !light.is_point ? pdf_light / (pdf_light + pdf_bsdf) : 1.0f;
-    return value * light.radiance * (dot(s->normal, wi) * weight / pdf_light);
+    const float weight = weighted && !light.is_point ? light.pdf / (light.pdf + pdf_bsdf) : 1.0f;
+    return value * light.radiance * (dot(s->normal, wi) * weight / light.pdf);
 }
 
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
@@ -92,9 +84,9 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     result.rays = 0;
     const float3 background = params->background.xyz;
     const int bounces = params->bounces;
-    const bool background_shines = max_component(background) > 0.0f;
 
     float3 throughput = (float3)(1.0f);
+    float3 ray_start = ray.origin; /* the surface point itself: light was sampled as seen from there */
     float pdf_direction = 0.0f; /* of the ray, over solid angle; 0: only this ray could find the light */
     for (int depth = 0; depth <= bounces + 1; ++depth) {
         result.rays += 1;
@@ -108,14 +100,11 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         const float3 wo = -ray.direction;
         const Surface s = surface_at(scene, hit, wo);
 
-        float area_pdf;
-        const float3 emitted = emitted_radiance(scene, &s, &area_pdf);
+        float pdf_light;
+        const float3 emitted = emitted_radiance(scene, &s, ray_start, &pdf_light);
         if (max_component(emitted) > 0.0f) {
-            float weight = 1.0f;
-            if (pdf_direction > 0.0f && area_pdf > 0.0f) {
-                const float pdf_light = area_pdf * hit.t * hit.t / fabs(dot(s.face_normal, wo));
-                weight = pdf_direction / (pdf_direction + pdf_light);
-            }
+            const float weight =
+                pdf_direction > 0.0f ? pdf_direction / (pdf_direction + pdf_light) : 1.0f;
             add_radiance(&result, depth, throughput * emitted * weight);
         }
         const Bsdf f = bsdf_at(scene, &s);
@@ -133,7 +122,8 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         }
 
         /* The last vertex goes on only to look for what light sampling finds badly or not at all. */
-        const bool goes_on = depth < bounces || f.specular_chance > 0.0f || background_shines;
+        const bool goes_on =
+            depth < bounces || f.specular_chance > 0.0f || params->search_lights != 0;
         const float2 choice = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE));
         float3 direct = (float3)(0.0f);
         if (scene->light_count > 0) {
@@ -153,6 +143,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         throughput *= value * (dot(s.normal, wi) / pdf_direction);
         if (!(max_component(throughput) > 0.0f)) break;
 
+        ray_start = s.position;
         ray.origin = offset_origin(s.position, s.position_error, s.face_normal, wi);
         ray.direction = wi;
         ray.t_max = INFINITY;

@@ -1,5 +1,7 @@
 #include "host/render/path_tracer.hpp"
 
+#include <algorithm>
+
 #include "host/base/stopwatch.hpp"
 #include "host/bvh/bvh.hpp"
 #include "host/render/camera.hpp"
@@ -13,7 +15,7 @@ constexpr cl_uint kWorkArgs = 4;  // first_pixel, pixel_count, first_sample, sam
 }  // namespace
 
 shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& settings,
-                                      std::size_t light_count) {
+                                      const std::vector<shared::Light>& lights) {
     shared::FrameParams params{};
     params.camera = make_camera_rays(scene.camera, scene.film);
     params.background = {scene.background.x, scene.background.y, scene.background.z, 0};
@@ -27,7 +29,10 @@ shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& se
     params.sampler = settings.sampler == Sampler::sobol ? WEDGE_SAMPLER_SOBOL : WEDGE_SAMPLER_HASH;
     params.log2_samples = settings.log2_samples;
     params.bounces = settings.bounces;
-    params.light_count = uint32_t(light_count);
+    const bool mesh_lights = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
+        return light.kind == WEDGE_LIGHT_TRIANGLE;
+    });
+    params.search_lights = mesh_lights || scene.background != Vec3(0);
     return params;
 }
 
@@ -55,7 +60,7 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     stats.bvh_build_s = watch.lap();
 
     scene_ = upload_scene(device_, flat, bvh, scene.textures);
-    const shared::FrameParams params = make_frame_params(scene, settings, flat.lights.size());
+    const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);
     params_ = device_.upload_bytes(&params, sizeof(params), "frame parameters");
     const std::vector<shared::FilmPixel> black(pixel_count_);
     film_ = device_.upload_bytes(black.data(), black.size() * sizeof(black[0]), "film");

@@ -65,6 +65,6 @@ class PathTracer {
 };
 
 shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& settings,
-                                      std::size_t light_count);
+                                      const std::vector<shared::Light>& lights);
 
 }  // namespace wedge::rendering

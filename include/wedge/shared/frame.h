@@ -26,8 +26,8 @@ typedef struct FrameParams {
     int sampler;
     int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence */
     int bounces;
-    uint light_count;
-    uint unused;
+    int search_lights; /* 1: there is light that sampling finds badly or not at all: background, meshes */
+    int unused;
 } FrameParams;
 WEDGE_ASSERT_SIZE(FrameParams, 128);
 

@@ -1,0 +1,55 @@
+#include "kernel_harness.hpp"
+
+namespace wedge::test {
+
+SamplingKernels::SamplingKernels() {
+    const device::ProgramRequest request{"tests/kernels/sampling.cl", {"WEDGE_SPECULAR=1"}};
+    program_ = device::build_programs(device_, std::span(&request, 1), WEDGE_SOURCE_DIR).front();
+}
+
+/// The output buffer is the kernel's last argument.
+template <typename T, typename... Args>
+std::vector<T> SamplingKernels::run(const char* name, uint32_t count, const Args&... args) {
+    std::vector<T> out(count);
+    const uint64_t bytes = out.size() * sizeof(T);
+    cl::Buffer buffer = device_.allocate(bytes, "results");
+    cl::Kernel kernel = program_.kernel(name);
+    cl_uint index = 0;
+    (kernel.setArg(index++, args), ...);
+    kernel.setArg(index, buffer);
+    device_.launch(kernel, count);
+    device_.finish();
+    device_.download(buffer, out.data(), bytes);
+    return out;
+}
+
+std::vector<float2> SamplingKernels::points(int sampler, uint32_t seed, int log2_samples,
+                                            uint32_t pixel, uint32_t first_sample,
+                                            uint32_t dimension, uint32_t count) {
+    return run<float2>("draw_points", count, cl_int(sampler), seed, cl_int(log2_samples), pixel,
+                       first_sample, dimension, count);
+}
+
+std::vector<float4> SamplingKernels::bsdf_directions(float4 parameters, float4 wo, uint32_t seed,
+                                                     uint32_t count) {
+    return run<float4>("sample_bsdf_directions", count, parameters, wo, seed, count);
+}
+
+std::vector<float2> SamplingKernels::bsdf_values(float4 parameters, float4 wo,
+                                                 const std::vector<float4>& wi) {
+    const cl::Buffer directions =
+        device_.upload_bytes(wi.data(), wi.size() * sizeof(wi[0]), "directions");
+    return run<float2>("eval_bsdf_directions", uint32_t(wi.size()), parameters, wo, directions,
+                       uint32_t(wi.size()));
+}
+
+std::vector<float4> SamplingKernels::light_points(const std::vector<shared::Light>& lights,
+                                                  float4 from, uint32_t seed, uint32_t count) {
+    const cl::Buffer none = device_.allocate(64, "unused");
+    const cl::Buffer list =
+        device_.upload_bytes(lights.data(), lights.size() * sizeof(lights[0]), "lights");
+    return run<float4>("sample_light_points", count, none, none, none, none, none, none, none, list,
+                       uint32_t(lights.size()), from, seed, count);
+}
+
+}  // namespace wedge::test

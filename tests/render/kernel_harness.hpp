@@ -1,0 +1,42 @@
+// Calls the kernels of tests/kernels/sampling.cl.
+#pragma once
+
+#include <vector>
+
+#include "host/device/device.hpp"
+#include "host/device/program.hpp"
+#include "wedge/shared/scene.h"
+
+namespace wedge::test {
+
+using shared::float4;
+
+struct float2 {
+    float x, y;
+};
+
+class SamplingKernels {
+  public:
+    SamplingKernels();
+
+    /// kernels/lib/random.clh
+    std::vector<float2> points(int sampler, uint32_t seed, int log2_samples, uint32_t pixel,
+                               uint32_t first_sample, uint32_t dimension, uint32_t count);
+    /// Directions and weights f cos / pdf; `parameters`: diffuse, specular, exponent, model.
+    std::vector<float4> bsdf_directions(float4 parameters, float4 wo, uint32_t seed,
+                                        uint32_t count);
+    /// Value and pdf.
+    std::vector<float2> bsdf_values(float4 parameters, float4 wo, const std::vector<float4>& wi);
+    /// Positions and density over solid angle seen from `from`.
+    std::vector<float4> light_points(const std::vector<shared::Light>& lights, float4 from, uint32_t seed,
+                                     uint32_t count);
+
+  private:
+    template <typename T, typename... Args>
+    std::vector<T> run(const char* name, uint32_t count, const Args&... args);
+
+    device::Device device_;
+    device::Program program_;
+};
+
+}  // namespace wedge::test

@@ -1,0 +1,110 @@
+// The samplers' points against what their definitions promise.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "kernel_harness.hpp"
+#include "statistics.hpp"
+#include "wedge/shared/frame.h"
+
+namespace wedge::test {
+namespace {
+
+/// True if every box of 2^-a x 2^-(m - a) holds exactly one of the 2^m points, for all a: a (0, m,
+/// 2)-net.
+bool is_net(const std::vector<float2>& points, int m) {
+    if (points.size() != std::size_t(1) << m) return false;
+    for (int a = 0; a <= m; ++a) {
+        std::vector<int> hits(points.size(), 0);
+        for (const float2& p : points) {
+            const auto column = std::size_t(std::ldexp(p.x, a));
+            const auto row = std::size_t(std::ldexp(p.y, m - a));
+            if (++hits[(row << a) + column] > 1) return false;
+        }
+    }
+    return true;
+}
+
+TEST_CASE("sobol_points_of_a_pixel_are_a_net") {
+    SamplingKernels kernels;
+    for (uint32_t dimension : {0u, 1u, 7u})
+        for (uint32_t pixel : {0u, 1u, 12345u, 0xffffffffu})
+            for (int m : {0, 1, 2, 4, 6, 10})
+                CHECK(is_net(
+                    kernels.points(WEDGE_SAMPLER_SOBOL, 3, m, pixel, 0, dimension, 1u << m), m));
+}
+
+TEST_CASE("sobol_prefixes_of_a_pixel_are_nets") {
+    SamplingKernels kernels;
+    // Stopped early at any power of two, and every aligned stretch after it.
+    for (int m : {2, 4, 6})
+        for (uint32_t first : {0u, 64u, 960u})
+            CHECK(is_net(kernels.points(WEDGE_SAMPLER_SOBOL, 9, 10, 77, first, 2, 1u << m), m));
+}
+
+TEST_CASE("sobol_points_of_neighbouring_pixels_are_a_net_together") {
+    SamplingKernels kernels;
+    for (int m : {2, 4}) {             // 4 and 16 samples a pixel
+        for (int block : {2, 4, 6}) {  // over 2x2, 4x4, 8x8 pixels
+            std::vector<float2> all;
+            for (uint32_t i = 0; i < 1u << block; ++i) {
+                const auto points =
+                    kernels.points(WEDGE_SAMPLER_SOBOL, 5, m, (3u << block) + i, 0, 4, 1u << m);
+                all.insert(all.end(), points.begin(), points.end());
+            }
+            CHECK(is_net(all, m + block));
+        }
+    }
+}
+
+TEST_CASE("seeds_pixels_and_dimensions_give_different_points") {
+    SamplingKernels kernels;
+    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL}) {
+        const float2 p = kernels.points(sampler, 1, 6, 10, 0, 0, 1)[0];
+        for (const float2& q : {kernels.points(sampler, 2, 6, 10, 0, 0, 1)[0],
+                                kernels.points(sampler, 1, 6, 11, 0, 0, 1)[0],
+                                kernels.points(sampler, 1, 6, 10, 0, 1, 1)[0],
+                                kernels.points(sampler, 1, 6, 10, 64, 0, 1)[0]})
+            CHECK((p.x != q.x || p.y != q.y));
+    }
+}
+
+TEST_CASE("points_are_uniform_over_the_square") {
+    SamplingKernels kernels;
+    constexpr int kSide = 32;
+    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL}) {
+        std::vector<double> observed(kSide * kSide, 0.0);
+        // One sample each of many pixels of different seeds: for Sobol, its scrambling alone.
+        const uint32_t count = 100;
+        for (uint32_t seed = 0; seed < 200; ++seed) {
+            const uint32_t samples = sampler == WEDGE_SAMPLER_HASH ? count : 1;
+            for (uint32_t i = 0; i < (sampler == WEDGE_SAMPLER_HASH ? 1 : 20); ++i)
+                for (const float2& p :
+                     kernels.points(sampler, seed, 0, i * 977, 0, seed % 5, samples)) {
+                    REQUIRE((p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1));
+                    observed[int(p.y * kSide) * kSide + int(p.x * kSide)] += 1;
+                }
+        }
+        double total = 0;
+        for (double o : observed) total += o;
+        const std::vector<double> expected(observed.size(), total / double(observed.size()));
+        CHECK(chi_square_p_value(observed, expected) > 1e-4);
+    }
+}
+
+TEST_CASE("dimension_pairs_are_not_correlated") {
+    SamplingKernels kernels;
+    constexpr uint32_t kCount = 1u << 14;
+    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL})
+        for (uint32_t dimension = 1; dimension < 6; ++dimension) {
+            const auto a = kernels.points(sampler, 1, 14, 5, 0, 0, kCount);
+            const auto b = kernels.points(sampler, 1, 14, 5, 0, dimension, kCount);
+            double sum = 0;
+            for (uint32_t i = 0; i < kCount; ++i) sum += (a[i].x - 0.5) * (b[i].x - 0.5);
+            // Standard deviation of the correlation of independent pairs: 1 / sqrt(n).
+            CHECK(std::abs(12 * sum / kCount) < 4.5 / std::sqrt(double(kCount)));
+        }
+}
+
+}  // namespace
+}  // namespace wedge::test
