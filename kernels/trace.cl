@@ -1,4 +1,5 @@
 // Traces buffers of rays, for tests and for measuring ray rates.
+#include "kernels/lib/offset.clh"
 #include "kernels/lib/trace.clh"
 
 typedef struct {
@@ -35,4 +36,23 @@ __kernel void trace_occluded_rays(__global const BvhNode* nodes,
     bool occluded = trace_occluded(nodes, blocks, ray);
     Hit hit = {occluded ? 0.0f : ray.t_max, 0.0f, 0.0f, occluded ? 0u : WEDGE_NO_PRIMITIVE};
     hits[i] = hit;
+}
+
+typedef struct {
+    float4 v0, v1, v2;
+    float4 barycentrics;
+    float4 direction;
+} OffsetQuery;
+
+// Where a ray in `direction` starts that leaves the point of a triangle.
+__kernel void offset_origins(__global const OffsetQuery* queries, __global float4* origins,
+                             uint count) {
+    uint i = get_global_id(0);
+    if (i >= count) return;
+    float3 v0 = queries[i].v0.xyz, v1 = queries[i].v1.xyz, v2 = queries[i].v2.xyz;
+    float b1 = queries[i].barycentrics.x, b2 = queries[i].barycentrics.y;
+    float3 point = (1.0f - b1 - b2) * v0 + b1 * v1 + b2 * v2;
+    float3 normal = normalize(cross(v1 - v0, v2 - v0));
+    float3 error = interpolation_error(v0, v1, v2, b1, b2);
+    origins[i] = (float4)(offset_origin(point, error, normal, queries[i].direction.xyz), 0.0f);
 }

@@ -9,12 +9,33 @@
 namespace wedge::bvh {
 namespace {
 
-constexpr int kBinCount = 16;
+constexpr int kMaxBins = 16;
 constexpr uint32_t kParallelChunk = 1 << 15;
 
+/// Most divisions are of few triangles; there, emptying and sweeping bins is the greater part.
+int bin_count_for(uint32_t triangles) {
+    return std::min(kMaxBins, 6 + int(triangles / 16));
+}
+
 struct Bins {
-    std::array<std::array<Box, kBinCount>, 3> boxes;
-    std::array<std::array<uint32_t, kBinCount>, 3> counts{};
+    int count = 0;  ///< used on each axis
+    std::array<std::array<Float4, kMaxBins>, 3> lower, upper;
+    std::array<std::array<uint32_t, kMaxBins>, 3> counts;
+
+    explicit Bins(int bin_count) : count(bin_count) {
+        const Box empty;
+        for (int axis = 0; axis < 3; ++axis) {
+            std::fill_n(lower[axis].begin(), count, empty.lower);
+            std::fill_n(upper[axis].begin(), count, empty.upper);
+            std::fill_n(counts[axis].begin(), count, 0);
+        }
+    }
+    Box box(int axis, int bin) const { return {lower[axis][bin], upper[axis][bin]}; }
+    void include(int axis, int bin, const Box& box, uint32_t triangles) {
+        lower[axis][bin] = minimum(lower[axis][bin], box.lower);
+        upper[axis][bin] = maximum(upper[axis][bin], box.upper);
+        counts[axis][bin] += triangles;
+    }
 };
 
 /// Maps a centroid to a bin number per axis. Monotone in each coordinate and the same wherever it
@@ -22,10 +43,10 @@ struct Bins {
 struct BinMapping {
     Float4 origin, scale;
 
-    explicit BinMapping(const Box& centroids) : origin(centroids.lower) {
+    BinMapping(const Box& centroids, int bin_count) : origin(centroids.lower) {
         for (int axis = 0; axis < 4; ++axis) {
             const float extent = centroids.upper[axis] - centroids.lower[axis];
-            const float bins_per_unit = float(kBinCount) * 0.9999f / extent;
+            const float bins_per_unit = float(bin_count) * 0.9999f / extent;
             // An axis without extent, or one so short or long that the scale is not finite, has one
             // bin.
             const bool usable = axis < 3 && extent > 0 && bins_per_unit > 0 &&
@@ -42,28 +63,25 @@ void fill_bins(std::span<const PrimRef> refs, const BinMapping& mapping, Bins& b
     for (const PrimRef& ref : refs) {
         const Int4 bin = mapping(ref.centroid());
         for (int axis = 0; axis < 3; ++axis) {
-            bins.boxes[axis][bin[axis]].include(ref.box());
-            ++bins.counts[axis][bin[axis]];
+            bins.include(axis, bin[axis], ref.box(), 1);
         }
     }
 }
 
 void merge_bins(const Bins& from, Bins& into) {
     for (int axis = 0; axis < 3; ++axis)
-        for (int bin = 0; bin < kBinCount; ++bin) {
-            into.boxes[axis][bin].include(from.boxes[axis][bin]);
-            into.counts[axis][bin] += from.counts[axis][bin];
-        }
+        for (int bin = 0; bin < from.count; ++bin)
+            into.include(axis, bin, from.box(axis, bin), from.counts[axis][bin]);
 }
 
 /// Minima, maxima and counts do not depend on the order, so neither do the bins.
-Bins bin_refs(std::span<const PrimRef> refs, const BinMapping& mapping) {
-    Bins bins;
+Bins bin_refs(std::span<const PrimRef> refs, const BinMapping& mapping, int bin_count) {
+    Bins bins(bin_count);
     if (refs.size() < 2 * kParallelChunk) {
         fill_bins(refs, mapping, bins);
         return bins;
     }
-    std::vector<Bins> parts((refs.size() + kParallelChunk - 1) / kParallelChunk);
+    std::vector<Bins> parts((refs.size() + kParallelChunk - 1) / kParallelChunk, bins);
     parallel_ranges(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::size_t first = i * kParallelChunk;
@@ -87,19 +105,19 @@ struct Plane {
 
 /// Keeps the better of `best` and the best plane of one axis.
 void sweep_axis(const Bins& bins, int axis, float scale, Plane& best) {
-    std::array<float, kBinCount> right_cost{};
+    std::array<float, kMaxBins> right_cost;
     Box box;
     uint32_t count = 0;
-    for (int bin = kBinCount - 1; bin > 0; --bin) {
-        box.include(bins.boxes[axis][bin]);
+    for (int bin = bins.count - 1; bin > 0; --bin) {
+        box.include(bins.box(axis, bin));
         count += bins.counts[axis][bin];
         right_cost[bin] = half_area(box, scale) * block_count(count);
     }
     const uint32_t total = count + bins.counts[axis][0];
     box = Box();
     count = 0;
-    for (int bin = 1; bin < kBinCount; ++bin) {
-        box.include(bins.boxes[axis][bin - 1]);
+    for (int bin = 1; bin < bins.count; ++bin) {
+        box.include(bins.box(axis, bin - 1));
         count += bins.counts[axis][bin - 1];
         if (count == 0 || count == total) continue;
         const float cost = half_area(box, scale) * block_count(count) + right_cost[bin];
@@ -154,8 +172,9 @@ Range whole_range(std::span<const PrimRef> refs) {
 }
 
 RangePair split_by_area(std::span<PrimRef> refs, const Range& range, float scale) {
-    const BinMapping mapping(range.centroids);
-    const Bins bins = bin_refs(refs.subspan(range.first, range.count), mapping);
+    const int bin_count = bin_count_for(range.count);
+    const BinMapping mapping(range.centroids, bin_count);
+    const Bins bins = bin_refs(refs.subspan(range.first, range.count), mapping, bin_count);
     Plane plane;
     for (int axis = 0; axis < 3; ++axis) sweep_axis(bins, axis, scale, plane);
     if (plane.axis < 0) return halve_by_index(refs, range);

@@ -1,0 +1,140 @@
+// wedge bench trace: how many rays a second a device traces, kind by kind, beside Embree where the
+// build has it (docs/tracing.md).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bench/trace_bench.hpp"
+#include "host/cli/asset_paths.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/text.hpp"
+#include "wedge/error.hpp"
+
+namespace wedge::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct BenchArguments {
+    std::vector<std::string> scenes;
+    std::vector<std::string> asset_paths;
+    std::string device, json_file;
+    bench::TraceBenchOptions options;
+    bool no_embree = false;
+};
+
+void print_report(const bench::TraceReport& report) {
+    fmt::print("{}: {} triangles, tree {} in {}", report.scene, text_of_number(report.triangles),
+               text_of_bytes(report.tree_bytes), text_of_seconds(report.build_s));
+    if (report.embree_build_s) fmt::print(" (Embree {})", text_of_seconds(*report.embree_build_s));
+    fmt::print("\n  {:<10}{:>10}{:>7}{:>10}{:>9}{:>10}{:>9}{:>8}{:>11}\n", "rays", "count", "hits",
+               "Mray/s", "spread", "Embree", "spread", "ratio", "differing");
+    for (const bench::TraceRow& row : report.rows) {
+        fmt::print("  {:<10}{:>10}{:>6.0f}%{:>10.2f}{:>8.0f}%", row.kind, row.rays,
+                   100 * row.hit_share, row.wedge.mrays_per_s, 100 * row.wedge.spread);
+        if (row.embree)
+            fmt::print("{:>10.2f}{:>8.0f}%{:>8.2f}{:>11}", row.embree->mrays_per_s,
+                       100 * row.embree->spread, *row.ratio_embree, row.differing);
+        fmt::print("\n");
+    }
+    std::fflush(stdout);
+}
+
+ordered_json json_of(const bench::TraceReport& report) {
+    ordered_json json{{"scene", report.scene},           {"triangles", report.triangles},
+                      {"nodes", report.nodes},           {"blocks", report.blocks},
+                      {"tree_bytes", report.tree_bytes}, {"depth", report.depth},
+                      {"build_s", report.build_s},       {"rows", ordered_json::array()}};
+    if (report.embree_build_s) json["embree_build_s"] = *report.embree_build_s;
+    for (const bench::TraceRow& row : report.rows) {
+        ordered_json item{{"kind", row.kind},
+                          {"rays", row.rays},
+                          {"hit_share", row.hit_share},
+                          {"mrays_per_s", row.wedge.mrays_per_s},
+                          {"spread", row.wedge.spread}};
+        if (row.embree) {
+            item["embree_mrays_per_s"] = row.embree->mrays_per_s;
+            item["embree_spread"] = row.embree->spread;
+            item["ratio_embree"] = *row.ratio_embree;
+            item["differing"] = row.differing;
+        }
+        json["rows"].push_back(item);
+    }
+    return json;
+}
+
+void print_mean_ratio(const std::vector<bench::TraceReport>& reports) {
+    double sum = 0;
+    int count = 0;
+    for (const bench::TraceReport& report : reports)
+        for (const bench::TraceRow& row : report.rows)
+            if (row.ratio_embree && *row.ratio_embree > 0) {
+                sum += std::log(*row.ratio_embree);
+                ++count;
+            }
+    if (count)
+        fmt::print("geometric mean of the ratios to Embree: {:.2f}\n", std::exp(sum / count));
+}
+
+void write_json(const std::string& file, const device::Device& device,
+                const std::vector<bench::TraceReport>& reports) {
+    ordered_json json{{"device", device.info().name},
+                      {"driver", device.info().driver},
+                      {"scenes", ordered_json::array()}};
+    for (const bench::TraceReport& report : reports) json["scenes"].push_back(json_of(report));
+    std::ofstream out(file);
+    out << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+    out.flush();
+    if (!out) throw Error(ErrorKind::output, fmt::format("{}: cannot write", file));
+}
+
+void run(const BenchArguments& arguments) {
+    bench::TraceBenchOptions options = arguments.options;
+    options.embree = !arguments.no_embree;
+    LoadOptions load = load_options(arguments.asset_paths);
+    load.load_texture = nullptr;  // rays do not see colours
+
+    device::Device device(arguments.device);
+    fmt::print("{} ({})\n", device.info().name, device.info().driver);
+    std::vector<bench::TraceReport> reports;
+    if (arguments.scenes.empty()) {
+        reports.push_back(bench::measure_tracing(device, bench::made_up_scene(), options));
+        print_report(reports.back());
+    }
+    for (const std::string& file : arguments.scenes) {
+        reports.push_back(bench::measure_tracing(device, load_scene(file, load), options));
+        print_report(reports.back());
+    }
+    print_mean_ratio(reports);
+    if (!arguments.json_file.empty()) write_json(arguments.json_file, device, reports);
+}
+
+}  // namespace
+
+void register_bench(CLI::App& app) {
+    CLI::App* group = app.add_subcommand("bench", "Measure speed");
+    group->require_subcommand(1);
+    CLI::App* command = group->add_subcommand("trace", "Rays a second, by kind of ray");
+    auto arguments = std::make_shared<BenchArguments>();
+    command->add_option("scenes", arguments->scenes,
+                        "Scene files (.json) or models (.obj); none: a field of spheres");
+    command->add_option("--asset-path", arguments->asset_paths, kAssetPathHelp)
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    command->add_option("--device", arguments->device, "Index, part of a name, cpu or gpu");
+    command->add_option("--repeats", arguments->options.repeats, "Timed runs of each kind of ray")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--local-size", arguments->options.local_size,
+                        "Work-group size; 0: what suits the device");
+    command->add_option("--json", arguments->json_file, "Write the numbers to this file");
+    command->add_flag("--no-embree", arguments->no_embree, "Do not measure Embree");
+    command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace wedge::cli
