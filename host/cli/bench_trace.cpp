@@ -93,11 +93,16 @@ void write_json(const std::string& file, const device::Device& device,
     if (!out) throw Error(ErrorKind::output, fmt::format("{}: cannot write", file));
 }
 
+/// Rays do not see colours, so no image is read.
+TextureImage white_texel(const std::filesystem::path&, bool) {
+    return {1, 1, TextureFormat::linear8, {255, 255, 255, 255}};
+}
+
 void run(const BenchArguments& arguments) {
     bench::TraceBenchOptions options = arguments.options;
     options.embree = !arguments.no_embree;
     LoadOptions load = load_options(arguments.asset_paths);
-    load.load_texture = nullptr;  // rays do not see colours
+    load.load_texture = white_texel;
 
     device::Device device(arguments.device);
     fmt::print("{} ({})\n", device.info().name, device.info().driver);
