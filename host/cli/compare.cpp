@@ -21,16 +21,23 @@ struct CompareOptions {
     float gain = 1;
 };
 
+/// Before the work, like everything that can be judged then.
+void check_difference_file(const std::filesystem::path& file) {
+    if (file.empty()) return;
+    if (file.extension() != ".exr" && file.extension() != ".png")
+        throw Error(ErrorKind::usage,
+                    fmt::format("--diff {}: the name must end in .exr or .png", file.string()));
+    check_writable(file);
+}
+
 void write_difference(const CompareOptions& options, const Image& test, const Image& reference) {
     const std::filesystem::path file = options.difference_file;
+    if (file.empty()) return;
     const Image difference = difference_image(test, reference, options.gain);
     if (file.extension() == ".png")
         write_png(file, difference);
-    else if (file.extension() == ".exr")
-        write_exr(file, difference);
     else
-        throw Error(ErrorKind::usage,
-                    fmt::format("--diff {}: the name must end in .exr or .png", file.string()));
+        write_exr(file, difference);
 }
 
 void print_table(const ImageDifference& difference) {
@@ -55,10 +62,10 @@ void print_json(const CompareOptions& options, const ImageDifference& difference
 }
 
 void compare(const CompareOptions& options) {
-    if (!options.difference_file.empty()) check_writable(options.difference_file);
+    check_difference_file(options.difference_file);
     const Image test = read_image(options.test), reference = read_image(options.reference);
     const ImageDifference difference = compare_images(test, reference);
-    if (!options.difference_file.empty()) write_difference(options, test, reference);
+    write_difference(options, test, reference);
     if (options.as_json)
         print_json(options, difference);
     else
