@@ -75,8 +75,9 @@ cl::Buffer Device::allocate(uint64_t bytes, const std::string& what, cl_mem_flag
     }
 }
 
-cl::Buffer Device::upload_bytes(const void* data, uint64_t bytes, const std::string& what) {
-    cl::Buffer buffer = allocate(bytes, what, CL_MEM_READ_ONLY);
+cl::Buffer Device::upload_bytes(const void* data, uint64_t bytes, const std::string& what,
+                                cl_mem_flags flags) {
+    cl::Buffer buffer = allocate(bytes, what, flags);
     if (bytes == 0) return buffer;
     try {
         queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);

@@ -32,12 +32,13 @@ class Device {
     /// the device's largest buffer or cannot be had. A request of 0 bytes gives a small buffer.
     cl::Buffer allocate(uint64_t bytes, const std::string& what, cl_mem_flags flags = CL_MEM_READ_WRITE);
 
-    /// Allocates and fills.
+    /// Allocates and fills; kernels may only read it, unless `flags` say otherwise.
     template <typename T>
     cl::Buffer upload(std::span<const T> items, const std::string& what) {
         return upload_bytes(items.data(), items.size_bytes(), what);
     }
-    cl::Buffer upload_bytes(const void* data, uint64_t bytes, const std::string& what);
+    cl::Buffer upload_bytes(const void* data, uint64_t bytes, const std::string& what,
+                            cl_mem_flags flags = CL_MEM_READ_ONLY);
 
     /// Blocking read of `bytes` from the start of `buffer`.
     void download(const cl::Buffer& buffer, void* data, uint64_t bytes);

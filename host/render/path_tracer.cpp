@@ -63,7 +63,8 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);
     params_ = device_.upload_bytes(&params, sizeof(params), "frame parameters");
     const std::vector<shared::FilmPixel> black(pixel_count_);
-    film_ = device_.upload_bytes(black.data(), black.size() * sizeof(black[0]), "film");
+    film_ = device_.upload_bytes(black.data(), black.size() * sizeof(black[0]), "film",
+                                 CL_MEM_READ_WRITE);
     stats.upload_s = watch.lap();
 }
 
@@ -99,7 +100,8 @@ std::vector<shared::PathVertex> PathTracer::record_samples(uint32_t first_sample
                                                            uint32_t sample_count) {
     std::vector<shared::PathVertex> record(std::size_t(sample_count) * vertices_per_path_);
     const uint64_t bytes = record.size() * sizeof(record[0]);
-    cl::Buffer buffer = device_.upload_bytes(record.data(), bytes, "path vertices");
+    cl::Buffer buffer =
+        device_.upload_bytes(record.data(), bytes, "path vertices", CL_MEM_READ_WRITE);
     kernel_.setArg(first_work_arg_ + kWorkArgs, buffer);
     add_samples({0, 1, first_sample, sample_count});
     device_.download(buffer, record.data(), bytes);
