@@ -18,7 +18,7 @@ struct OffsetQuery {
 std::vector<Vec3> offset_origins(std::span<const OffsetQuery> queries) {
     device::Device& device = test_device();
     const device::ProgramRequest request{"kernels/trace.cl", {}};
-    const auto programs = device::build_programs(device, {&request, 1});
+    const auto programs = device::build_programs(device, {&request, 1}, kernel_dir());
     cl::Kernel kernel = programs[0].kernel("offset_origins");
     const cl::Buffer in = device.upload(queries, "queries");
     const cl::Buffer out = device.allocate(queries.size() * sizeof(shared::float4), "origins");

@@ -9,14 +9,17 @@ const device::Program& trace_program(bool portable) {
     static std::vector<device::Program> programs = [] {
         const std::vector<device::ProgramRequest> requests = {
             {"kernels/trace.cl", {}}, {"kernels/trace.cl", {"WEDGE_PORTABLE_LANES=1"}}};
-        // For trying kernels without building the program anew.
-        const char* kernel_dir = std::getenv("WEDGE_KERNEL_DIR");
-        return device::build_programs(test_device(), requests, kernel_dir ? kernel_dir : "");
+        return device::build_programs(test_device(), requests, kernel_dir());
     }();
     return programs[portable ? 1 : 0];
 }
 
 }  // namespace
+
+std::string kernel_dir() {
+    const char* folder = std::getenv("WEDGE_KERNEL_DIR");
+    return folder ? folder : "";
+}
 
 PackedRay make_ray(const Vec3& origin, const Vec3& direction, float t_max, uint32_t source) {
     return {origin.x, origin.y, origin.z, t_max, direction.x, direction.y, direction.z, source};

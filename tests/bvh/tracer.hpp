@@ -27,6 +27,9 @@ struct PackedHit {
 PackedRay make_ray(const Vec3& origin, const Vec3& direction, float t_max = INFINITY,
                    uint32_t source = WEDGE_NO_PRIMITIVE);
 
+/// $WEDGE_KERNEL_DIR, for trying kernels without building the program anew, or empty.
+std::string kernel_dir();
+
 /// The device all tests of this program share.
 device::Device& test_device();
 
