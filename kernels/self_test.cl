@@ -1,5 +1,6 @@
 // Known answers: what every other kernel takes for granted about a device and its compiler. All results
 // are exact, so that the host can ask for equality (host/device/self_test.cpp computes the same).
+#include "lib/lanes.clh"
 #include "wedge/shared/bvh.h"
 #include "wedge/shared/frame.h"
 #include "wedge/shared/replay.h"
@@ -31,15 +32,7 @@ static uint mask_answer(uint i, global const float* infinities) {
     float8 exit = (float8)(7.0f);
     entry.s3 = infinities[0];
     exit.s3 = infinities[1];
-    const int8 inside = entry <= exit;
-#ifdef WEDGE_X86_MOVMSK
-    return (uint)__builtin_ia32_movmskps256(as_float8(inside));
-#else
-    const int8 bits = inside & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-    const int4 quarter = bits.lo | bits.hi;
-    const int2 pair = quarter.lo | quarter.hi;
-    return (uint)(pair.x | pair.y);
-#endif
+    return lane_bits8(entry <= exit);
 }
 
 // answers: four words an item (integer, float, mask, index).

@@ -19,23 +19,11 @@ namespace {
 
 using Row = std::array<std::string, 8>;
 
-const char* type_name(DeviceType type) {
-    switch (type) {
-        case DeviceType::cpu:
-            return "cpu";
-        case DeviceType::gpu:
-            return "gpu";
-        case DeviceType::accelerator:
-            break;
-    }
-    return "accelerator";
-}
-
 void print_table(const std::vector<DeviceInfo>& devices) {
     std::vector<Row> rows{
         {"index", "name", "type", "platform", "driver", "units", "memory", "largest buffer"}};
     for (const DeviceInfo& d : devices)
-        rows.push_back({std::to_string(d.index), d.name, type_name(d.type), d.platform, d.driver,
+        rows.push_back({std::to_string(d.index), d.name, name_of(d.type), d.platform, d.driver,
                         std::to_string(d.compute_units), text_of_bytes(d.memory_bytes),
                         text_of_bytes(d.largest_buffer_bytes)});
 
@@ -55,7 +43,7 @@ void print_json(const std::vector<DeviceInfo>& devices) {
     for (const DeviceInfo& d : devices)
         list.push_back({{"index", d.index},
                         {"name", d.name},
-                        {"type", type_name(d.type)},
+                        {"type", name_of(d.type)},
                         {"vendor", d.vendor},
                         {"version", d.version},
                         {"driver", d.driver},

@@ -14,8 +14,9 @@ namespace wedge::device {
 /// Owns the context and an in-order queue with profiling. Movable, not copyable.
 class Device {
   public:
-    /// `selector`: index as listed, part of a name (any case), `cpu`, `gpu`, or empty: then WEDGE_DEVICE,
-    /// then the first GPU, then the first device. Throws Error(device) that lists what there is.
+    /// `selector`: index as listed, part of a name (any case), `cpu`, `gpu`, or empty: then
+    /// WEDGE_DEVICE, then the first GPU, then the first device. Throws Error(device) that lists
+    /// what there is.
     explicit Device(const std::string& selector = "");
     Device(Device&&) = default;
     Device& operator=(Device&&) = default;
@@ -28,9 +29,11 @@ class Device {
     /// True for PoCL, which caches programs itself and wants small work-groups.
     bool is_pocl() const;
 
-    /// Device memory; `what` names it in errors. Throws Error(device) with the sizes if it is larger than
-    /// the device's largest buffer or cannot be had. A request of 0 bytes gives a small buffer.
-    cl::Buffer allocate(uint64_t bytes, const std::string& what, cl_mem_flags flags = CL_MEM_READ_WRITE);
+    /// Device memory; `what` names it in errors. Throws Error(device) with the sizes if it is
+    /// larger than the device's largest buffer or cannot be had. A request of 0 bytes gives a small
+    /// buffer.
+    cl::Buffer allocate(uint64_t bytes, const std::string& what,
+                        cl_mem_flags flags = CL_MEM_READ_WRITE);
 
     /// Allocates and fills; kernels may only read it, unless `flags` say otherwise.
     template <typename T>

@@ -140,6 +140,18 @@ std::size_t select_device(std::span<const DeviceInfo> devices, const std::string
 
 }  // namespace device
 
+const char* name_of(DeviceType type) {
+    switch (type) {
+        case DeviceType::cpu:
+            return "cpu";
+        case DeviceType::gpu:
+            return "gpu";
+        case DeviceType::accelerator:
+            break;
+    }
+    return "accelerator";
+}
+
 std::vector<DeviceInfo> list_devices() {
     std::vector<DeviceInfo> infos;
     for (device::FoundDevice& found : device::find_devices())

@@ -18,17 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kLogLinesShown = 100;  // the first errors are the ones to mend
 
-/// OpenCL knows no movmsk; where PoCL compiles for this very processor, the builtin is at hand.
-bool has_x86_movmsk(const Device& device) {
-#if defined(__x86_64__)
-    return device.is_pocl() && device.info().type == DeviceType::cpu &&
-           __builtin_cpu_supports("avx2");
-#else
-    (void)device;
-    return false;
-#endif
-}
-
 std::string first_lines(const std::string& text, int count) {
     std::istringstream lines(text);
     std::string line, kept;
@@ -101,7 +90,7 @@ Program build_one(const Device& device, const ProgramRequest& request,
         return Program{std::move(program), from_cache, elapsed_s};
     };
     const std::string source = assemble_source(request.file, kernel_dir);
-    const std::string options = build_options(device, request);
+    const std::string options = build_options(request);
     if (!caches_programs(device)) {
         return finished(build_from_source(device, request, source, options), false);
     }
@@ -119,10 +108,8 @@ Program build_one(const Device& device, const ProgramRequest& request,
 
 }  // namespace
 
-std::string build_options(const Device& device, const ProgramRequest& request) {
+std::string build_options(const ProgramRequest& request) {
     std::string options = "-cl-std=CL1.2";
-    if (device.info().type == DeviceType::cpu) options += " -DWEDGE_CPU=1";
-    if (has_x86_movmsk(device)) options += " -DWEDGE_X86_MOVMSK=1";
     for (const std::string& define : request.defines) options += " -D" + define;
     return options;
 }

@@ -32,10 +32,8 @@ struct Program {
 /// bad_input).
 std::string assemble_source(const std::string& file, const std::string& kernel_dir = "");
 
-/// What the compiler is called with: OpenCL C 1.2, the request's defines, and of the device
-/// `WEDGE_CPU=1` on CPUs and `WEDGE_X86_MOVMSK=1` where kernels may call the x86 builtin
-/// `__builtin_ia32_movmskps256` (PoCL on a host with AVX2).
-std::string build_options(const Device& device, const ProgramRequest& request);
+/// What the compiler is called with: OpenCL C 1.2 and the request's defines.
+std::string build_options(const ProgramRequest& request);
 
 /// Builds all, in parallel, each from the binary cache if it is there. Throws Error(device) with
 /// the device's name and the build log. Cache: $WEDGE_CACHE_DIR, else $XDG_CACHE_HOME/wedge, else

@@ -125,8 +125,7 @@ void check_layouts(Device& device, const Program& program) {
 bool self_test(Device& device, const std::string& kernel_dir) {
     const ProgramRequest request{"kernels/self_test.cl", {}};
     const std::string source = assemble_source(request.file, kernel_dir);
-    const std::string name =
-        cache_key(device, source, build_options(device, request)) + ".self_test";
+    const std::string name = cache_key(device, source, build_options(request)) + ".self_test";
     if (load_cached(name)) return false;
 
     const std::vector<Program> programs = build_programs(device, {&request, 1}, kernel_dir);

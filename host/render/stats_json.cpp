@@ -5,22 +5,10 @@
 namespace wedge {
 namespace {
 
-const char* type_name(DeviceType type) {
-    switch (type) {
-        case DeviceType::cpu:
-            return "cpu";
-        case DeviceType::gpu:
-            return "gpu";
-        case DeviceType::accelerator:
-            break;
-    }
-    return "accelerator";
-}
-
 nlohmann::ordered_json device_json(const DeviceInfo& d) {
     return {{"index", d.index},
             {"name", d.name},
-            {"type", type_name(d.type)},
+            {"type", name_of(d.type)},
             {"platform", d.platform},
             {"platform_version", d.platform_version},
             {"driver", d.driver},

@@ -8,6 +8,7 @@
 namespace wedge {
 
 enum class DeviceType { cpu, gpu, accelerator };
+const char* name_of(DeviceType type);
 
 struct DeviceInfo {
     int index = 0;  ///< as listed; what `--device N` takes
