@@ -1,0 +1,48 @@
+// Kernels from a source tree, and what is said if they do not build.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/cli/workbench.hpp"
+
+namespace wedge::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A source tree with the kernels of this one.
+void copy_kernels(const Workbench& bench) {
+    const fs::path source = WEDGE_SOURCE_DIR;
+    fs::create_directories(bench.folder() / "tree/include/wedge");
+    fs::copy(source / "kernels", bench.folder() / "tree/kernels", fs::copy_options::recursive);
+    fs::copy(source / "include/wedge/shared", bench.folder() / "tree/include/wedge/shared",
+             fs::copy_options::recursive);
+}
+
+ProcessResult render_from_tree(const Workbench& bench) {
+    return bench.wedge({"render", "room.json", "--kernel-dir", "tree", "-o", "out.exr"});
+}
+
+TEST_CASE("kernels_can_come_from_a_source_tree") {
+    const Workbench bench;
+    write_room(bench);
+    copy_kernels(bench);
+    CHECK(render_from_tree(bench).exit_code == 0);
+}
+
+TEST_CASE("a_kernel_that_does_not_build_gives_the_log_and_exit_code_4") {
+    const Workbench bench;
+    write_room(bench);
+    copy_kernels(bench);
+    std::ofstream(bench.folder() / "tree/kernels/path.cl", std::ios::app) << "\nno such thing;\n";
+    const ProcessResult result = render_from_tree(bench);
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 4);
+    CHECK(result.err_has("kernels/path.cl"));
+    CHECK(result.err_has("unknown type name"));
+    CHECK(!bench.has("out.exr"));
+}
+
+}  // namespace
+}  // namespace wedge::test
