@@ -5,6 +5,7 @@
 
 #include "host/base/parallel.hpp"
 #include "host/bvh/bvh.hpp"
+#include "host/bvh/collapse.hpp"
 #include "host/bvh/prim_refs.hpp"
 #include "host/bvh/split.hpp"
 
@@ -116,12 +117,38 @@ int32_t append_subtree(const Input& input, const Range& range, uint32_t level, P
     return index;
 }
 
+/// As append_subtree, of a tree that is cut already.
+int32_t append_tree(const Input& input, const BinaryTree& tree, uint32_t from, uint32_t level,
+                    Piece& piece) {
+    const int32_t index = int32_t(piece.nodes.size());
+    piece.nodes.push_back(unused_node());
+    piece.depth = std::max(piece.depth, level + 1);
+    std::array<uint32_t, kWidth> children;
+    const int count = tree.children(from, children);
+    for (int i = 0; i < count; ++i) {
+        const Range& child = tree.range(children[i]);
+        set_child_bounds(piece.nodes[index], i, child.bounds);
+        if (tree.is_leaf(children[i])) {
+            piece.nodes[index].child[i] = ~int32_t(piece.blocks.size());
+            piece.blocks.push_back(make_block(input, child));
+        } else {
+            const int32_t below = append_tree(input, tree, children[i], level + 1, piece);
+            piece.nodes[index].child[i] = below;
+        }
+    }
+    return index;
+}
+
 std::unique_ptr<Piece> build_piece(const Input& input, const Range& range, uint32_t level) {
     auto piece = std::make_unique<Piece>();
     if (range.count <= kTaskTriangles) {
-        piece->nodes.reserve(range.count / 12 + 1);
+        piece->nodes.reserve(range.count / 15 + 1);
         piece->blocks.reserve(range.count / 3 + 1);
-        append_subtree(input, range, level, *piece);
+        const BinaryTree tree(input.refs, range, input.scale);
+        if (level + tree.depth() <= kBalancedLevel)
+            append_tree(input, tree, 0, level, *piece);
+        else  // rare, and the only way whose depth has a bound
+            append_subtree(input, range, level, *piece);
         return piece;
     }
     piece->depth = level + 1;
