@@ -5,11 +5,14 @@
    the ray happens to meet counts too, both weighted by the balance heuristic (Veach 1997, eq. 9.8).
 
    WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
+   WEDGE_SHADOW_LIGHTS: shadows of that many lights, the first of the list, are kept apart for filtering
+   (shadow.cl); 0: none.
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
 #include "lib/film.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
 #include "lib/replay.clh"
+#include "lib/shadow_light.clh"
 #include "wedge/shared/frame.h"
 
 typedef struct {
@@ -41,32 +44,20 @@ inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     return ray;
 }
 
-/* True if light from a point at `wi` can reach and leave the surface: the face and the shading normal must
-   agree that it is above. */
-inline bool is_above(const Surface* s, float3 wi) {
-    return dot(s->face_normal, wi) > 0.0f && dot(s->normal, wi) > 0.0f;
-}
-
 /* Light that arrives straight from a sampled light and is scattered to wo. `weighted`: the path goes on
    and may meet the same light by itself. */
 inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
-                            float choice, float2 u, bool weighted, PathResult* result) {
+                            uint first_light, float choice, float2 u, bool weighted,
+                            PathResult* result) {
     const float3 none = (float3)(0.0f);
-    const LightSample light = sample_light(scene, s->position, choice, u);
+    const LightSample light = sample_light(scene, first_light, s->position, choice, u);
     const float3 wi = light.direction;
     if (!(light.pdf > 0.0f) || !is_above(s, wi)) return none;
     float pdf_bsdf;
     const float3 value = eval_bsdf(f, s->normal, wo, wi, &pdf_bsdf);
     if (!(max_component(value) > 0.0f)) return none;
 
-    Ray shadow;
-    shadow.origin = offset_origin(s->position, s->position_error, s->face_normal, wi);
-    const float3 end = light.is_point
-                           ? light.position
-                           : offset_origin(light.position, light.position_error, light.normal, -wi);
-    shadow.direction = end - shadow.origin;
-    shadow.t_max = 1.0f - 0x1p-20f;
-    shadow.source = s->primitive;
+    const Ray shadow = shadow_ray(s, &light);
     result->rays += 1;
     if (trace_occluded(scene->nodes, scene->blocks, shadow)) return none;
 
@@ -75,7 +66,7 @@ inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f,
 }
 
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
-                             float3 view_axis, const Sampler* sampler WEDGE_REPLAY_PARAMS) {
+                             float3 view_axis, const Sampler* sampler WEDGE_SHADOW_PARAMS WEDGE_REPLAY_PARAMS) {
     PathResult result;
     WEDGE_IF_REPLAY(result.record = record;)
     result.emission = result.direct = result.indirect = (float3)(0.0f);
@@ -87,6 +78,9 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 
     float3 throughput = (float3)(1.0f);
     float3 ray_start = ray.origin; /* the surface point itself: light was sampled as seen from there */
+#if WEDGE_SHADOW_LIGHTS > 0
+    float3 specular_share = (float3)(0.0f); /* of the last scattering */
+#endif
     float pdf_direction = 0.0f; /* of the ray, over solid angle; 0: only this ray could find the light */
     for (int depth = 0; depth <= bounces + 1; ++depth) {
         result.rays += 1;
@@ -103,9 +97,13 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         float pdf_light;
         const float3 emitted = emitted_radiance(scene, &s, ray_start, &pdf_light);
         if (max_component(emitted) > 0.0f) {
+            float3 share = (float3)(1.0f);
+#if WEDGE_SHADOW_LIGHTS > 0
+            if (depth == 1) share = share_at_first_hit(scene, s.light, specular_share, &pdf_light);
+#endif
             const float weight =
                 pdf_direction > 0.0f ? pdf_direction / (pdf_direction + pdf_light) : 1.0f;
-            add_radiance(&result, depth, throughput * emitted * weight);
+            add_radiance(&result, depth, throughput * share * emitted * weight);
         }
         const Bsdf f = bsdf_at(scene, &s);
         if (depth == 0) {
@@ -126,11 +124,19 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             depth < bounces || f.specular_chance > 0.0f || params->search_lights != 0;
         const float2 choice = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE));
         float3 direct = (float3)(0.0f);
-        if (scene->light_count > 0) {
-            const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
-            direct = sample_direct(scene, &s, &f, wo, choice.x, u, goes_on, &result);
-            add_radiance(&result, depth + 1, throughput * direct);
+        uint first_light = 0;
+#if WEDGE_SHADOW_LIGHTS > 0
+        if (depth == 0) {
+            first_light = WEDGE_SHADOW_LIGHTS;
+            direct = sample_shadow_lights(scene, &s, &f, wo, sampler, shadows, probing);
+            result.rays += WEDGE_SHADOW_LIGHTS;
         }
+#endif
+        if (scene->light_count > first_light) {
+            const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
+            direct += sample_direct(scene, &s, &f, wo, first_light, choice.x, u, goes_on, &result);
+        }
+        add_radiance(&result, depth + 1, throughput * direct);
         WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, throughput,
                                    emitted, direct, s.primitive, s.material);)
         if (!goes_on) break;
@@ -140,6 +146,9 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         if (!is_above(&s, wi)) break;
         const float3 value = eval_bsdf(&f, s.normal, wo, wi, &pdf_direction);
         if (!(pdf_direction > 0.0f)) break;
+#if WEDGE_SHADOW_LIGHTS > 0
+        specular_share = 1.0f - f.diffuse * WEDGE_INV_PI / fmax(value, 1e-30f);
+#endif
         throughput *= value * (dot(s.normal, wi) / pdf_direction);
         if (!(max_component(throughput) > 0.0f)) break;
 
@@ -154,11 +163,12 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 
 /* WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel at a time. */
 /* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel +
-   pixel_count) of the crop, counted along its rows. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH:
+   pixel_count) of the crop, counted along its rows; with shadows, no more than sample_ends says. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH:
    sums are taken batch by batch, so that any split of the samples into launches adds up alike. */
 __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCENE_PARAMS,
                           __global FilmPixel* restrict film, uint first_pixel, uint pixel_count,
-                          uint first_sample, uint sample_count WEDGE_REPLAY_PARAMS) {
+                          uint first_sample,
+                          uint sample_count WEDGE_SHADOW_KERNEL_PARAMS WEDGE_REPLAY_PARAMS) {
     const uint id = get_global_id(0);
     if (id >= pixel_count) return;
     const Scene scene = WEDGE_SCENE_ARGS;
@@ -169,6 +179,11 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const uint y = (uint)params->crop_y + pixel / (uint)params->crop_width;
     const uint code = morton_code(x, y);
 
+#if WEDGE_SHADOW_LIGHTS > 0
+    const uint end = min(first_sample + sample_count, sample_ends[pixel]);
+    sample_count = end > first_sample ? end - first_sample : 0u;
+    __global ShadowPixel* shadows = all_shadows + pixel * WEDGE_SHADOW_LIGHTS;
+#endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
         for (uint i = 0; i < WEDGE_SAMPLE_BATCH && batch + i < sample_count; ++i) {
@@ -178,7 +193,7 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
             const PathResult r = trace_path(
                 &scene, params, ray, view_axis,
-                &sampler WEDGE_IF_REPLAY(, record + (batch + i) * (uint)(params->bounces + 2)));
+                &sampler WEDGE_SHADOW_ARGS WEDGE_IF_REPLAY(, record + (batch + i) * (uint)(params->bounces + 2)));
             add_sample(&sum, r.emission, r.direct, r.indirect, r.rays);
             add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
         }

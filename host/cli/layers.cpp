@@ -10,8 +10,8 @@
 namespace wedge::cli {
 namespace {
 
-constexpr std::array<const char*, 9> kLayers{"direct", "indirect", "emission", "albedo", "N",
-                                             "P",      "Z",        "variance", "spp"};
+constexpr std::array<const char*, 10> kLayers{"direct", "indirect", "emission", "albedo", "N",
+                                              "P",      "Z",        "variance", "spp",    "width"};
 
 bool same_name(const std::string& a, const char* b) {
     return strcasecmp(a.c_str(), b) == 0;

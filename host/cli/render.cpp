@@ -126,6 +126,8 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
                        "End after this many seconds, or at --spp, whichever is first; default: no "
                        "limit");
     command.add_option("--seed", a.seed, "Seed of all random numbers; default: 0");
+    command.add_option("--method", a.method, "mc or aaf; default: mc");
+    command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 2");
     command.add_option("--sampler", a.sampler, "sobol or hash; default: sobol");
     command.add_option(
         "--sample-offset", a.sample_offset,

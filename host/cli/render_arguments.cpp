@@ -54,6 +54,12 @@ Pixel parse_pixel(const std::string& text) {
     return Pixel{n[0], n[1]};
 }
 
+Method parse_method(const std::string& name) {
+    if (name == "mc") return Method::mc;
+    if (name == "aaf") return Method::aaf;
+    refuse("--method " + name + ": no such method; known: mc, aaf");
+}
+
 Sampler parse_sampler(const std::string& name) {
     if (name == "sobol") return Sampler::sobol;
     if (name == "hash") return Sampler::hash;
@@ -93,6 +99,9 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.seed = arguments.seed;
     job.options.sample_offset = arguments.sample_offset;
     job.options.sampler = parse_sampler(arguments.sampler);
+    job.options.method = parse_method(arguments.method);
+    if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));
+    job.options.mu = arguments.mu;
     job.options.kernel_dir = arguments.kernel_dir;
     job.options.local_size = arguments.local_size;
     job.options.tile_pixels = arguments.tile_pixels;

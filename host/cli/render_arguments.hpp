@@ -19,7 +19,8 @@ struct RenderArguments {
     std::vector<std::string> layers;
     std::vector<std::string> asset_paths;
     std::string size, crop, pixel;
-    std::string sampler = "sobol";
+    std::string sampler = "sobol", method = "mc";
+    float mu = 2;
     std::string stats_file;
     std::optional<float> exposure;
     std::string tone = "srgb";

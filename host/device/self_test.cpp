@@ -17,6 +17,7 @@
 #include "wedge/shared/frame.h"
 #include "wedge/shared/replay.h"
 #include "wedge/shared/scene.h"
+#include "wedge/shared/shadow.h"
 
 namespace wedge::device {
 namespace {

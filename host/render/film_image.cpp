@@ -79,4 +79,18 @@ Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film,
     return image;
 }
 
+void add_channel(Image& image, const std::string& name, std::span<const float> values,
+                 const Rect& crop) {
+    if (values.empty()) return;
+    const std::size_t before = image.channels.size(), after = before + 1;
+    std::vector<float> pixels(image.pixels.size() / before * after, 0.0f);
+    for (std::size_t i = 0; i * before < image.pixels.size(); ++i)
+        std::copy_n(&image.pixels[i * before], before, &pixels[i * after]);
+    image.pixels = std::move(pixels);
+    image.channels.push_back(name);
+    for (int y = 0; y < crop.height; ++y)
+        for (int x = 0; x < crop.width; ++x)
+            image.at(crop.x + x, crop.y + y, int(before)) = values[std::size_t(y) * crop.width + x];
+}
+
 }  // namespace wedge::rendering

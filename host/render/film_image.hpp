@@ -13,4 +13,8 @@ namespace wedge::rendering {
 /// Channels are described in docs/output.md.
 Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop);
 
+/// Appends a channel; `values` are the crop's, row by row. Empty: nothing is appended.
+void add_channel(Image& image, const std::string& name, std::span<const float> values,
+                 const Rect& crop);
+
 }  // namespace wedge::rendering

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/render/lights.hpp"
 #include "wedge/error.hpp"
 
@@ -73,7 +75,7 @@ void append_instance(FlatScene& flat, const Scene& scene, const Instance& instan
     }
 }
 
-void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, LightList& lights) {
+void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, int light) {
     const auto base = uint32_t(flat.positions.size());
     const Vec3 corner = rect.center - 0.5f * (rect.edge_u + rect.edge_v);
     for (const Vec3& p :
@@ -81,7 +83,6 @@ void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, Ligh
         flat.positions.push_back(p);
         flat.vertices.push_back(make_vertex(p, Vec3(0), Vec2(0)));
     }
-    const int light = lights.add_rect(rect);
     append_triangle(flat, {base, base + 1, base + 2}, material, light);
     append_triangle(flat, {base, base + 2, base + 3}, material, light);
 }
@@ -108,11 +109,19 @@ FlatScene flatten(const Scene& scene) {
     FlatScene flat;
     LightList lights;
     for (const Material& m : scene.materials) flat.materials.push_back(to_device(m));
+    // First and by power: the first rectangles are those whose shadows can be filtered.
+    std::vector<RectLight> rects = scene.rect_lights;
+    std::stable_sort(rects.begin(), rects.end(), [](const RectLight& a, const RectLight& b) {
+        return light_power(a) > light_power(b);
+    });
+    std::vector<int> rect_lights;
+    for (const RectLight& rect : rects) rect_lights.push_back(lights.add_rect(rect));
     for (const Instance& instance : scene.instances) append_instance(flat, scene, instance, lights);
 
     const auto black = uint32_t(flat.materials.size());
     flat.materials.push_back(to_device(Material{.diffuse = Vec3(0)}));
-    for (const RectLight& rect : scene.rect_lights) append_rect(flat, rect, black, lights);
+    for (std::size_t i = 0; i < rects.size(); ++i)
+        append_rect(flat, rects[i], black, rect_lights[i]);
     for (const PointLight& point : scene.point_lights) lights.add_point(point);
     flat.lights = lights.take();
     return flat;

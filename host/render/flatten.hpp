@@ -15,8 +15,10 @@ struct FlatScene {
     std::vector<shared::ShadingVertex> vertices;
     std::vector<shared::ShadingTriangle> shading;  ///< one per triangle
     std::vector<shared::SurfaceMaterial>
-        materials;                      ///< the scene's, then one black for light sources
-    std::vector<shared::Light> lights;  ///< with probabilities proportional to power
+        materials;  ///< the scene's, then one black for light sources
+    /// With probabilities proportional to power. Rectangles come first, the most powerful first of
+    /// all.
+    std::vector<shared::Light> lights;
 };
 
 /// Instances become triangles of their own: the scenes this renderer is for repeat little, and one

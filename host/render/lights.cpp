@@ -21,6 +21,14 @@ double gaussian_mean(double sigma) {
 
 }  // namespace
 
+double light_power(const RectLight& rect) {
+    const double u = glm::length(rect.edge_u), v = glm::length(rect.edge_v);
+    double mean = 1;
+    if (rect.profile == LightProfile::gaussian)
+        mean = gaussian_mean(rect.sigma / u) * gaussian_mean(rect.sigma / v);
+    return u * v * mean * double(kPi) * luminance(rect.radiance);
+}
+
 int LightList::add(shared::Light light, double power) {
     if (!(power > 0) || !std::isfinite(power)) return -1;
     lights_.push_back(light);
@@ -32,11 +40,10 @@ int LightList::add_rect(const RectLight& rect) {
     const Vec3 normal = glm::cross(rect.edge_u, rect.edge_v);
     const double area = glm::length(glm::dvec3(normal));
     shared::Light light{};
-    double sigma_u = 0, sigma_v = 0, mean = 1;
+    double sigma_u = 0, sigma_v = 0;
     if (rect.profile == LightProfile::gaussian) {
         sigma_u = rect.sigma / glm::length(rect.edge_u);
         sigma_v = rect.sigma / glm::length(rect.edge_v);
-        mean = gaussian_mean(sigma_u) * gaussian_mean(sigma_v);
     }
     light.origin = to_float4(rect.center - 0.5f * (rect.edge_u + rect.edge_v), area);
     light.edge_u = to_float4(rect.edge_u, sigma_u);
@@ -45,7 +52,7 @@ int LightList::add_rect(const RectLight& rect) {
     light.radiance = to_float4(rect.radiance, 0);
     light.kind = WEDGE_LIGHT_RECT;
     light.emission_texture = -1;
-    return add(light, area * mean * double(kPi) * luminance(rect.radiance));
+    return add(light, light_power(rect));
 }
 
 int LightList::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Material& material,

@@ -8,6 +8,9 @@
 
 namespace wedge::rendering {
 
+/// Power of a light, up to a factor common to all, by luminance.
+double light_power(const RectLight& rect);
+
 class LightList {
   public:
     /// Each returns the index of the new light, or -1 where there is nothing to sample: no power,

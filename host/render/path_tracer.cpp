@@ -10,7 +10,8 @@
 namespace wedge::rendering {
 namespace {
 
-constexpr cl_uint kWorkArgs = 4;  // first_pixel, pixel_count, first_sample, sample_count
+constexpr cl_uint kWorkArgs = 4;    // first_pixel, pixel_count, first_sample, sample_count
+constexpr cl_uint kShadowArgs = 3;  // all_shadows, sample_ends, probing
 
 }  // namespace
 
@@ -37,15 +38,13 @@ shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& se
 }
 
 PathTracer::PathTracer(device::Device& device, const Scene& scene, const PathSettings& settings,
-                       RenderStats& stats, Recording recording)
+                       const Plan& plan, RenderStats& stats, Recording recording)
     : device_(device),
       pixel_count_(uint32_t(settings.crop.width) * uint32_t(settings.crop.height)),
       local_size_(settings.local_size),
       vertices_per_path_(uint32_t(settings.bounces) + 2) {
     upload(scene, settings, stats);
-    Plan plan = make_plan(scene);
-    if (recording == Recording::on) plan.path_program.defines.push_back("WEDGE_REPLAY=1");
-    compile(plan, settings, stats);
+    compile(plan, settings, recording, stats);
     stats.device_bytes = device.allocated_bytes();
 }
 
@@ -68,22 +67,36 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     stats.upload_s = watch.lap();
 }
 
-void PathTracer::compile(const Plan& plan, const PathSettings& settings, RenderStats& stats) {
+void PathTracer::compile(const Plan& plan, const PathSettings& settings, Recording recording,
+                         RenderStats& stats) {
     Stopwatch watch;
+    device::ProgramRequest request = plan.path_program;
+    if (recording == Recording::on) request.defines.push_back("WEDGE_REPLAY=1");
     const auto programs =
-        device::build_programs(device_, std::span(&plan.path_program, 1), settings.kernel_dir);
+        device::build_programs(device_, std::span(&request, 1), settings.kernel_dir);
     kernel_ = programs[0].kernel("trace_paths");
     kernel_.setArg(0, params_);
     const cl_uint film_arg = scene_.set_args(kernel_, 1);
     kernel_.setArg(film_arg, film_);
     first_work_arg_ = film_arg + 1;
 
-    // Some drivers compile at the first launch: an empty one keeps that out of the rendering time.
-    // With recording there is a buffer to come first.
-    const bool recording = kernel_.getInfo<CL_KERNEL_NUM_ARGS>() > first_work_arg_ + kWorkArgs;
-    if (!recording) add_samples({0, 0, 0, 0});
+    has_shadows_ = plan.shadow_lights > 0;
+    record_arg_ = first_work_arg_ + kWorkArgs + (has_shadows_ ? kShadowArgs : 0);
+    if (!has_shadows_ && recording == Recording::off) warm_up();
     (programs[0].from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
     stats.compile_s = watch.lap();
+}
+
+// Some drivers compile at the first launch: an empty one keeps that out of the rendering time. All
+// buffers must be there.
+void PathTracer::warm_up() {
+    add_samples({});
+}
+
+void PathTracer::attach_shadows(const cl::Buffer& shadows, const cl::Buffer& sample_ends) {
+    kernel_.setArg(first_work_arg_ + kWorkArgs, shadows);
+    kernel_.setArg(first_work_arg_ + kWorkArgs + 1, sample_ends);
+    warm_up();
 }
 
 double PathTracer::add_samples(const Work& work) {
@@ -91,6 +104,7 @@ double PathTracer::add_samples(const Work& work) {
     for (uint32_t value :
          {work.first_pixel, work.pixel_count, work.first_sample, work.sample_count})
         kernel_.setArg(arg++, cl_uint(value));
+    if (has_shadows_) kernel_.setArg(arg + 2, cl_int(work.probing));
     const uint32_t work_items = work.pixel_count > 0 ? work.pixel_count : 1;
     const cl::Event event = device_.launch(kernel_, work_items, local_size_);
     return device::device_seconds(event);
@@ -102,7 +116,7 @@ std::vector<shared::PathVertex> PathTracer::record_samples(uint32_t first_sample
     const uint64_t bytes = record.size() * sizeof(record[0]);
     cl::Buffer buffer =
         device_.upload_bytes(record.data(), bytes, "path vertices", CL_MEM_READ_WRITE);
-    kernel_.setArg(first_work_arg_ + kWorkArgs, buffer);
+    kernel_.setArg(record_arg_, buffer);
     add_samples({0, 1, first_sample, sample_count});
     device_.download(buffer, record.data(), bytes);
     return record;

@@ -28,6 +28,7 @@ struct PathSettings {
 struct Work {
     uint32_t first_pixel = 0, pixel_count = 0;
     uint32_t first_sample = 0, sample_count = 0;
+    bool probing = false;  ///< with shadows: note distances to occluders
 };
 
 /// Whether paths are written down as they are traced.
@@ -37,13 +38,22 @@ class PathTracer {
   public:
     /// Flattens, builds, uploads and compiles; fills those parts of `stats`.
     PathTracer(device::Device& device, const Scene& scene, const PathSettings& settings,
-               RenderStats& stats, Recording recording = Recording::off);
+               const Plan& plan, RenderStats& stats, Recording recording = Recording::off);
 
     /// Traces and waits. Returns seconds on the device.
     double add_samples(const Work& work);
 
     /// Recording::on, one pixel: traces the samples and returns bounces + 2 vertices for each.
     std::vector<shared::PathVertex> record_samples(uint32_t first_sample, uint32_t sample_count);
+
+    /// A plan with shadows: where they go (shared::ShadowPixel, one for each pixel and light) and
+    /// how many samples each pixel gets at the most (uint32_t). To be called before samples are
+    /// added.
+    void attach_shadows(const cl::Buffer& shadows, const cl::Buffer& sample_ends);
+
+    const cl::Buffer& params() const { return params_; }
+    const cl::Buffer& film() const { return film_; }
+    const cl::Buffer& lights() const { return scene_.lights; }
 
     /// The crop's pixels as they are now.
     std::vector<shared::FilmPixel> read_film();
@@ -52,13 +62,16 @@ class PathTracer {
 
   private:
     void upload(const Scene& scene, const PathSettings& settings, RenderStats& stats);
-    void compile(const Plan& plan, const PathSettings& settings, RenderStats& stats);
+    void compile(const Plan& plan, const PathSettings& settings, Recording recording,
+                 RenderStats& stats);
+    void warm_up();
 
     device::Device& device_;
     DeviceScene scene_;
     cl::Buffer params_, film_;
     cl::Kernel kernel_;
-    cl_uint first_work_arg_ = 0;
+    cl_uint first_work_arg_ = 0, record_arg_ = 0;
+    bool has_shadows_ = false;
     uint32_t pixel_count_ = 0;
     uint32_t local_size_ = 0;
     uint32_t vertices_per_path_ = 0;

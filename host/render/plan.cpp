@@ -1,8 +1,10 @@
 #include "host/render/plan.hpp"
 
+#include <algorithm>
 #include <vector>
 
-#include "wedge/render.hpp"
+#include "host/render/lights.hpp"
+#include "wedge/shared/shadow.h"
 
 namespace wedge::rendering {
 namespace {
@@ -19,9 +21,15 @@ std::vector<bool> used_materials(const Scene& scene) {
     return used;
 }
 
+int count_shadow_lights(const Scene& scene) {
+    int count = 0;
+    for (const RectLight& rect : scene.rect_lights) count += light_power(rect) > 0;
+    return std::min(count, WEDGE_MAX_SHADOW_LIGHTS);
+}
+
 }  // namespace
 
-Plan make_plan(const Scene& scene) {
+Plan make_plan(const Scene& scene, Method method) {
     Plan plan;
     const std::vector<bool> used = used_materials(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -35,6 +43,12 @@ Plan make_plan(const Scene& scene) {
     plan.path_program.defines = {"WEDGE_SAMPLE_BATCH=" + std::to_string(kSampleBatch)};
     if (plan.specular) plan.path_program.defines.push_back("WEDGE_SPECULAR=1");
     if (plan.textures) plan.path_program.defines.push_back("WEDGE_TEXTURES=1");
+    if (method == Method::aaf) plan.shadow_lights = count_shadow_lights(scene);
+    if (plan.shadow_lights > 0) {
+        const std::string define = "WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights);
+        plan.path_program.defines.push_back(define);
+        plan.shadow_program = {"kernels/shadow.cl", {define}};
+    }
     return plan;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/device/program.hpp"
+#include "wedge/render.hpp"
 #include "wedge/scene.hpp"
 
 namespace wedge::rendering {
@@ -10,9 +11,11 @@ namespace wedge::rendering {
 struct Plan {
     bool specular = false;  ///< any visible material has a Phong or Blinn-Phong lobe
     bool textures = false;  ///< any visible material has an image
+    int shadow_lights = 0;  ///< rectangles whose shadows are filtered; 0: plain Monte Carlo
     device::ProgramRequest path_program;
+    device::ProgramRequest shadow_program;  ///< if shadow_lights > 0
 };
 
-Plan make_plan(const Scene& scene);
+Plan make_plan(const Scene& scene, Method method);
 
 }  // namespace wedge::rendering

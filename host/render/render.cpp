@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <algorithm>
+#include <numeric>
+#include <optional>
 
-#include "host/base/stopwatch.hpp"
 #include "host/device/self_test.hpp"
 #include "host/render/film_image.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/render_settings.hpp"
-#include "host/render/schedule.hpp"
+#include "host/render/sampling_loop.hpp"
+#include "host/render/shadow_filter.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
 
@@ -17,42 +19,6 @@ namespace wedge {
 namespace {
 
 using namespace rendering;
-
-struct Loop {
-    const RenderOptions& options;
-    PathTracer& tracer;
-    RenderStats& stats;
-    Stopwatch watch{};
-    uint64_t done = 0, total = 0;
-
-    bool must_stop(const Schedule& schedule) {
-        if (options.stop && options.stop->load()) {
-            stats.interrupted = true;
-            return true;
-        }
-        return options.time_limit_s && schedule.at_pass_end() && done > 0 &&
-               watch.total() >= *options.time_limit_s;
-    }
-
-    void run(uint32_t samples) {
-        Schedule schedule(tracer.pixel_count(), options.sample_offset, samples,
-                          options.tile_pixels);
-        total = uint64_t(samples) * tracer.pixel_count();
-        PassStats pass{"trace_paths", 0, 0};
-        while (!must_stop(schedule)) {
-            const std::optional<Work> work = schedule.next();
-            if (!work) break;
-            const double seconds = tracer.add_samples(*work);
-            schedule.measured(seconds);
-            pass.device_s += seconds;
-            pass.launches += 1;
-            done += uint64_t(work->pixel_count) * work->sample_count;
-            if (options.on_progress) options.on_progress({done, total, watch.total()});
-        }
-        stats.passes.push_back(pass);
-        stats.render_s = watch.total();
-    }
-};
 
 void count_film(const std::vector<shared::FilmPixel>& film, const Rect& crop, RenderStats& stats) {
     constexpr std::size_t kNamed = 4;
@@ -80,7 +46,8 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:device"] = stats.device.name;
     m["wedge:driver"] = stats.device.driver;
     m["wedge:version"] = version();
-    m["wedge:method"] = "mc";
+    m["wedge:method"] = options.method == Method::aaf ? "aaf" : "mc";
+    if (options.method == Method::aaf) m["wedge:mu"] = fmt::format("{:g}", options.mu);
     m["wedge:sampler"] = settings.sampler == Sampler::sobol ? "sobol" : "hash";
     m["wedge:seed"] = std::to_string(options.seed);
     m["wedge:bounces"] = std::to_string(settings.bounces);
@@ -90,6 +57,40 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:renderSeconds"] = fmt::format("{:.6g}", stats.render_s);
 }
 
+struct FilteredLight {
+    std::vector<shared::float4> radiance;  ///< rgb, by pixel
+    std::vector<float> widths_px;          ///< of the filter for the first light
+};
+
+/// Probe, measure, sample, filter (docs/method.md). Stopped early, it filters what there is.
+FilteredLight run_filtered(SamplingLoop& loop, ShadowFilter& shadows,
+                           const shared::ShadowSettings& settings) {
+    const auto probes = uint32_t(settings.probe_samples);
+    const uint64_t pixels = shadows.pixel_count();
+    // How many samples there will be is known only after the probe; until then progress guesses.
+    if (loop.run("probe", 0, probes, 4 * probes * pixels, true)) {
+        loop.add_pass("bandwidth", shadows.measure_bandwidth());
+        const std::vector<uint32_t> ends = shadows.read_sample_ends();
+        const uint32_t last = *std::max_element(ends.begin(), ends.end());
+        if (last > probes)
+            loop.run("adaptive", probes, last,
+                     std::accumulate(ends.begin(), ends.end(), uint64_t(0)));
+    }
+    loop.add_pass("filter", shadows.filter());
+    return {shadows.read_radiance(), shadows.read_widths_px()};
+}
+
+/// Adds radiance by pixel to the sums over samples.
+void add_filtered_light(std::vector<shared::FilmPixel>& film,
+                        const std::vector<shared::float4>& radiance) {
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+        shared::float4& direct = film[i].direct;
+        direct.x += radiance[i].x * direct.w;
+        direct.y += radiance[i].y * direct.w;
+        direct.z += radiance[i].z * direct.w;
+    }
+}
+
 }  // namespace
 
 const char* version() {
@@ -97,25 +98,39 @@ const char* version() {
 }
 
 Frame render(const Scene& scene, const RenderOptions& options) {
-    const PathSettings settings = rendering::make_path_settings(scene, options);
+    const PathSettings settings = make_path_settings(scene, options);
     device::Device device(options.device);
     device::self_test(device);
 
     Frame frame;
     frame.stats.device = device.info();
-    PathTracer tracer(device, scene, settings, frame.stats);
-    Loop loop{options, tracer, frame.stats};
+    const Plan plan = make_plan(scene, options.method);
+    PathTracer tracer(device, scene, settings, plan, frame.stats);
+    std::optional<ShadowFilter> shadows;
+    if (plan.shadow_lights > 0)
+        shadows.emplace(device, tracer, plan, settings.crop, make_shadow_settings(scene, options),
+                        settings.kernel_dir, frame.stats);
+    SamplingLoop loop(options, tracer, frame.stats);
+    FilteredLight filtered;
     try {
-        loop.run(rendering::sample_count(scene, options));
+        if (shadows) {
+            filtered = run_filtered(loop, *shadows, make_shadow_settings(scene, options));
+        } else {
+            const uint32_t samples = sample_count(scene, options);
+            loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
+                     uint64_t(samples) * tracer.pixel_count());
+        }
     } catch (const Error& error) {
         // What was traced before may still be there; only if it is not, nothing can be saved.
-        if (error.kind() != ErrorKind::device || loop.done == 0) throw;
+        if (error.kind() != ErrorKind::device || !loop.has_samples()) throw;
         frame.stats.failure = error.what();
-        frame.stats.render_s = loop.watch.total();
     }
-    const std::vector<shared::FilmPixel> film = tracer.read_film();
+    frame.stats.render_s = loop.elapsed_s();
+    std::vector<shared::FilmPixel> film = tracer.read_film();
+    add_filtered_light(film, filtered.radiance);
     count_film(film, settings.crop, frame.stats);
     frame.image = film_to_image(film, scene.film, settings.crop);
+    if (shadows) add_channel(frame.image, "width.direct", filtered.widths_px, settings.crop);
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

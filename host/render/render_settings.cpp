@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "wedge/error.hpp"
 
@@ -58,6 +59,12 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     const uint32_t samples = sample_count(scene, options);
     if (samples > kMaxSamples - std::min(options.sample_offset, kMaxSamples))
         refuse(fmt::format("sample offset and samples together must be at most {}", kMaxSamples));
+    if (options.method == Method::aaf) {
+        if (!(options.mu > 0) || !std::isfinite(options.mu))
+            refuse(fmt::format("mu must be positive, got {}", options.mu));
+        if (options.sample_offset != 0)
+            refuse("the method aaf decides its samples itself: no sample offset");
+    }
     settings.seed = options.seed;
     settings.sampler = options.sampler;
     const bool open_ended = options.time_limit_s && !options.samples_per_pixel;

@@ -4,6 +4,7 @@
 #include "host/device/program.hpp"
 #include "host/render/device_scene.hpp"
 #include "host/render/path_tracer.hpp"
+#include "host/render/plan.hpp"
 #include "host/render/render_settings.hpp"
 #include "wedge/error.hpp"
 #include "wedge/shared/replay.h"
@@ -57,7 +58,8 @@ std::string replay_pixel(const Scene& scene, const RenderOptions& options, int x
                         samples, kMaxReplaySamples));
     device::Device device(options.device);
     RenderStats stats;
-    rendering::PathTracer tracer(device, scene, settings, stats, rendering::Recording::on);
+    rendering::PathTracer tracer(device, scene, settings, rendering::make_plan(scene, Method::mc),
+                                 stats, rendering::Recording::on);
     const std::vector<PathVertex> record = tracer.record_samples(options.sample_offset, samples);
 
     std::string out = fmt::format("pixel {},{}, seed {}, {} samples from {}\n", x, y, options.seed,

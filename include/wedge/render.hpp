@@ -18,6 +18,10 @@ namespace wedge {
 /// Sobol with pixels in Z-order, the default (docs/method.md).
 enum class Sampler { sobol, hash };
 
+/// `mc`: plain path tracing, unbiased. `aaf`: shadows of rectangular lights on diffuse surfaces are sampled as
+/// densely as their frequencies ask for, and filtered (docs/method.md); all else as `mc`.
+enum class Method { mc, aaf };
+
 struct Rect {
     int x = 0, y = 0, width = 0, height = 0;  ///< px
 };
@@ -36,6 +40,10 @@ struct RenderOptions {
     uint32_t seed = 0;
     uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
     Sampler sampler = Sampler::sobol;
+    Method method = Method::mc;
+    /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias; samples_per_pixel then
+    /// is the most a pixel gets, by default 100 * max(1, mu).
+    float mu = 2;
     std::string kernel_dir;              ///< read kernels from this source tree instead of the program
     uint32_t local_size = 0;             ///< work-group size; 0: what suits the device
     uint32_t tile_pixels = 0;            ///< pixels an enqueue; 0: what suits the device
@@ -72,7 +80,7 @@ struct Frame {
     RenderStats stats;
 };
 
-/// Renders with plain path tracing: unbiased, and the truth other methods are measured against.
+/// Renders by the method asked for.
 /// Throws Error(usage), Error(bad_input) or Error(device); a device error after the first samples ends the
 /// render early instead and is told in `stats.failure`.
 Frame render(const Scene& scene, const RenderOptions& options = {});

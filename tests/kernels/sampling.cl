@@ -1,4 +1,5 @@
 /* The sampling routines of kernels/lib, laid open for the tests in tests/render. */
+#include "lib/bandwidth.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
 
@@ -52,6 +53,17 @@ __kernel void sample_light_points(WEDGE_SCENE_PARAMS, float4 from, uint seed, ui
     if (id >= count) return;
     const Scene scene = WEDGE_SCENE_ARGS;
     const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 0u, id);
-    const LightSample light = sample_light(&scene, from.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
+    const LightSample light = sample_light(&scene, 0, from.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
     out[id] = (float4)(light.position, light.pdf);
+}
+
+/* in: s_min, s_max, light sigma, pixel; settings: mu, alpha, k. out: filter sigma, samples */
+__kernel void eval_shadow_bandwidth(__global const float4* in, float4 settings, uint count,
+                                    __global float2* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const float4 p = in[id];
+    out[id] = (float2)(
+        shadow_filter_sigma(p.x, p.z, p.w, settings.x, settings.y, settings.z),
+        shadow_sample_count(p.x, p.y, p.z, p.w, settings.x, settings.y));
 }

@@ -1,5 +1,5 @@
 # Renders a tiny scene on Oclgrind's simulated device, which sees every read and write of every work-item.
-# cmake -DOCLGRIND=… -DWEDGE=… -DSCENE=… -DOUT=folder -P run.cmake
+# cmake -DOCLGRIND=… -DWEDGE=… -DSCENE=… -DOUT=folder -DOPTIONS=… -P run.cmake
 file(MAKE_DIRECTORY ${OUT})
 set(log ${OUT}/oclgrind.log)
 file(REMOVE ${log})
@@ -8,7 +8,7 @@ file(REMOVE ${log})
 execute_process(
     COMMAND ${CMAKE_COMMAND} -E env WEDGE_CACHE=0
             ${OCLGRIND} --data-races --build-options -cl-opt-disable --log ${log}
-            ${WEDGE} render ${SCENE} --device Oclgrind -o ${OUT}/tiny.exr
+            ${WEDGE} render ${SCENE} --device Oclgrind -o ${OUT}/tiny.exr ${OPTIONS}
     RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT result EQUAL 0)
     message(FATAL_ERROR "the render failed (${result}):\n${output}")

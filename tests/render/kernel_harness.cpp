@@ -52,4 +52,11 @@ std::vector<float4> SamplingKernels::light_points(const std::vector<shared::Ligh
                        uint32_t(lights.size()), from, seed, count);
 }
 
+std::vector<float2> SamplingKernels::shadow_bandwidth(const std::vector<float4>& in,
+                                                      float4 settings) {
+    const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "slopes");
+    return run<float2>("eval_shadow_bandwidth", uint32_t(in.size()), buffer, settings,
+                       uint32_t(in.size()));
+}
+
 }  // namespace wedge::test

@@ -28,8 +28,12 @@ class SamplingKernels {
     /// Value and pdf.
     std::vector<float2> bsdf_values(float4 parameters, float4 wo, const std::vector<float4>& wi);
     /// Positions and density over solid angle seen from `from`.
-    std::vector<float4> light_points(const std::vector<shared::Light>& lights, float4 from, uint32_t seed,
-                                     uint32_t count);
+    std::vector<float4> light_points(const std::vector<shared::Light>& lights, float4 from,
+                                     uint32_t seed, uint32_t count);
+
+    /// kernels/lib/bandwidth.clh; `in`: s_min, s_max, light sigma, pixel; `settings`: mu, alpha, k.
+    /// Filter width and sample count.
+    std::vector<float2> shadow_bandwidth(const std::vector<float4>& in, float4 settings);
 
   private:
     template <typename T, typename... Args>

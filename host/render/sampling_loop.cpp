@@ -1,0 +1,39 @@
+#include "host/render/sampling_loop.hpp"
+
+#include <algorithm>
+
+#include "host/render/schedule.hpp"
+
+namespace wedge::rendering {
+
+bool SamplingLoop::must_stop(bool at_pass_end) {
+    if (options_.stop && options_.stop->load()) {
+        stats_.interrupted = true;
+        return true;
+    }
+    return options_.time_limit_s && at_pass_end && done_ > 0 &&
+           watch_.total() >= *options_.time_limit_s;
+}
+
+bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t total,
+                       bool probing) {
+    Schedule schedule(tracer_.pixel_count(), first, end - first, options_.tile_pixels);
+    PassStats pass{name, 0, 0};
+    bool stopped = false;
+    while (!(stopped = must_stop(schedule.at_pass_end()))) {
+        std::optional<Work> work = schedule.next();
+        if (!work) break;
+        work->probing = probing;
+        const double seconds = tracer_.add_samples(*work);
+        schedule.measured(seconds);
+        pass.device_s += seconds;
+        pass.launches += 1;
+        done_ += uint64_t(work->pixel_count) * work->sample_count;
+        if (options_.on_progress)
+            options_.on_progress({std::min(done_, total), total, watch_.total()});
+    }
+    stats_.passes.push_back(pass);
+    return !stopped;
+}
+
+}  // namespace wedge::rendering

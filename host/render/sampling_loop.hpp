@@ -1,0 +1,37 @@
+// Launch after launch, until all samples are there or somebody says stop.
+#pragma once
+
+#include "host/base/stopwatch.hpp"
+#include "host/render/path_tracer.hpp"
+#include "wedge/render.hpp"
+
+namespace wedge::rendering {
+
+class SamplingLoop {
+  public:
+    SamplingLoop(const RenderOptions& options, PathTracer& tracer, RenderStats& stats)
+        : options_(options), tracer_(tracer), stats_(stats) {}
+
+    /// Brings all pixels from sample `first` to `end`, as a pass of that name in the statistics.
+    /// `total`: pixel samples of the whole render, for progress. False if it was stopped.
+    bool run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing = false);
+
+    /// Adds the time of a pass that was run otherwise.
+    void add_pass(const char* name, double device_s) {
+        stats_.passes.push_back({name, device_s, 1});
+    }
+
+    bool has_samples() const { return done_ > 0; }
+    double elapsed_s() const { return watch_.total(); }
+
+  private:
+    bool must_stop(bool at_pass_end);
+
+    const RenderOptions& options_;
+    PathTracer& tracer_;
+    RenderStats& stats_;
+    Stopwatch watch_;
+    uint64_t done_ = 0;
+};
+
+}  // namespace wedge::rendering
