@@ -9,7 +9,7 @@
 namespace wedge::bvh {
 namespace {
 
-constexpr int kMaxBins = 16;
+constexpr int kMaxBins = 64;
 constexpr uint32_t kParallelChunk = 1 << 15;
 
 /// Most divisions are of few triangles; there, emptying and sweeping bins is the greater part.
