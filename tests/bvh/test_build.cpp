@@ -122,6 +122,18 @@ TEST_CASE("depth_is_bounded_for_triangles_that_defeat_the_heuristic") {
     }
 }
 
+/// Half-filled nodes cost memory and visits: cutting greedily leaves little more than four a node.
+TEST_CASE("nodes_have_more_than_five_children_on_average") {
+    for (const Triangles& triangles : {make_soup(30000, 1), make_sphere(150, 0.1f)}) {
+        const bvh::Bvh tree = build(triangles);
+        std::size_t children = 0;
+        for (const shared::BvhNode& node : tree.nodes)
+            for (int slot = 0; slot < 8; ++slot)
+                children += node.bounds[0][slot] <= node.bounds[1][slot];
+        CHECK(double(children) > 5.0 * double(tree.nodes.size()));
+    }
+}
+
 TEST_CASE("an_empty_scene_has_a_root_without_children") {
     const bvh::Bvh tree = bvh::build({}, {});
     REQUIRE(tree.nodes.size() == 1);
