@@ -6,6 +6,7 @@
 #include "host/bvh/bvh.hpp"
 #include "host/render/camera.hpp"
 #include "host/render/flatten.hpp"
+#include "wedge/log.hpp"
 
 namespace wedge::rendering {
 namespace {
@@ -58,6 +59,11 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     stats.non_finite_triangles = bvh.non_finite_count;
     stats.bvh_build_s = watch.lap();
 
+    if (flat.lights.empty() && scene.background == Vec3(0))
+        log_warning(
+            "the scene has no light, no shining material and no background: it will be black");
+    const uint64_t kept = flat.triangles.size() - bvh.degenerate_count - bvh.non_finite_count;
+    if (kept == 0) log_warning("the scene has no triangle that can be rendered");
     scene_ = upload_scene(device_, flat, bvh, scene.textures);
     const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);
     params_ = device_.upload_bytes(&params, sizeof(params), "frame parameters");

@@ -57,6 +57,13 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:renderSeconds"] = fmt::format("{:.6g}", stats.render_s);
 }
 
+void check_local_size(const device::Device& device, uint32_t local_size) {
+    const auto largest = device.handle().getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    if (local_size > largest)
+        throw Error(ErrorKind::usage, fmt::format("the local size must be at most {} on {}, got {}",
+                                                  largest, device.info().name, local_size));
+}
+
 struct FilteredLight {
     std::vector<shared::float4> radiance;  ///< rgb, by pixel
     std::vector<float> widths_px;          ///< of the filter for the first light
@@ -100,6 +107,7 @@ const char* version() {
 Frame render(const Scene& scene, const RenderOptions& options) {
     const PathSettings settings = make_path_settings(scene, options);
     device::Device device(options.device);
+    check_local_size(device, options.local_size);
     device::self_test(device);
 
     Frame frame;

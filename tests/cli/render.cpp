@@ -180,6 +180,41 @@ TEST_CASE("warm_second_run_compiles_nothing") {
     CHECK(warm.at("programs_from_cache") == cold.at("programs_compiled"));
 }
 
+/// What PoCL has compiled, and when; its notes on what is in use change with every run.
+std::map<std::string, std::filesystem::file_time_type> compiled_below(
+    const std::filesystem::path& folder) {
+    std::map<std::string, std::filesystem::file_time_type> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::filesystem::path kind = entry.path().extension();
+        if (kind == ".so" || kind == ".bc") files[entry.path()] = entry.last_write_time();
+    }
+    return files;
+}
+
+TEST_CASE("pocl_compiles_nothing_in_a_warm_second_run") {
+    const Workbench bench;
+    write_room(bench);
+    const std::filesystem::path cache = bench.folder() / "pocl";
+    std::filesystem::create_directory(cache);
+    const std::map<std::string, std::string> environment{{"POCL_CACHE_DIR", cache.string()}};
+    render_room(bench, {}, {.environment = environment});
+    const auto cold = compiled_below(cache);
+    if (cold.empty()) {
+        MESSAGE("skipped: the device is not PoCL");
+        return;
+    }
+    render_room(bench, {}, {.environment = environment});
+    CHECK(compiled_below(cache) == cold);
+}
+
+TEST_CASE("a_scene_without_light_is_told") {
+    const Workbench bench;
+    write_room(bench);
+    const std::string scene = bench.read("room.json");
+    bench.write("room.json", scene.substr(0, scene.rfind("\"lights\"")) + "\"lights\": []}");
+    CHECK(render_room(bench).err_has("no light"));
+}
+
 TEST_CASE("interrupt_saves_the_image_and_exits_130") {
     const Workbench bench;
     write_room(bench);
