@@ -38,8 +38,8 @@ TEST_CASE("compare_refuses_images_of_different_sizes") {
     write_exr(bench.folder() / "b.exr", grey(0.5f, 20));
     const ProcessResult result = bench.wedge({"compare", "a.exr", "b.exr"});
     CHECK(result.exit_code == 3);
-    CHECK(result.err_has("16x12"));
-    CHECK(result.err_has("20x12"));
+    CHECK(result.err_has("16 x 12"));
+    CHECK(result.err_has("20 x 12"));
 }
 
 }  // namespace
