@@ -1,5 +1,5 @@
-// Loops over independent work on all cores: oneTBB where it is installed, one thread where not (a bare
-// GPU machine). Results must not depend on the order or the split.
+// Loops over independent work on all cores: oneTBB where it is installed, one thread where not (a
+// bare GPU machine). Results must not depend on the order or the split.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace wedge {
 
-/// Calls body(begin, end) for disjoint ranges that cover [0, count), `grain` items or more at a time.
+/// Calls body(begin, end) for disjoint ranges that cover [0, count), `grain` items or more at a
+/// time.
 template <typename Body>
 void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
 #ifdef WEDGE_HAVE_TBB

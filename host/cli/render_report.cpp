@@ -47,7 +47,8 @@ void report(const RenderStats& stats, const Scene& scene, const RenderOptions& o
                     text_of_count(double(stats.rays)), text_of_count(rate),
                     text_of_number(stats.triangles), text_of_bytes(stats.device_bytes)));
     say(fmt::format(
-        "  scene {}, BVH {}, upload {}, kernels {} ({} given to the driver, {} from cache), render {}",
+        "  scene {}, BVH {}, upload {}, kernels {} ({} given to the driver, {} from cache), render "
+        "{}",
         text_of_seconds(load_s), text_of_seconds(stats.flatten_s + stats.bvh_build_s),
         text_of_seconds(stats.upload_s), text_of_seconds(stats.compile_s), stats.programs_compiled,
         stats.programs_from_cache, text_of_seconds(stats.render_s)));

@@ -9,12 +9,13 @@
 
 namespace wedge {
 
-/// Tone curves for PNG. `srgb`: clip at 1. `filmic`: ACES-like shoulder (Narkowicz 2015). `reinhard`: x / (1 + x).
+/// Tone curves for PNG. `srgb`: clip at 1. `filmic`: ACES-like shoulder (Narkowicz 2015).
+/// `reinhard`: x / (1 + x).
 enum class ToneCurve { srgb, filmic, reinhard };
 ToneCurve parse_tone_curve(const std::string& name);  ///< throws Error(usage) that lists the names
 
-/// Writes `file` (EXR: every channel, float32, with metadata) through a temporary file and a rename,
-/// so that a truncated file never stands under the final name. Throws Error(output).
+/// Writes `file` (EXR: every channel, float32, with metadata) through a temporary file and a
+/// rename, so that a truncated file never stands under the final name. Throws Error(output).
 void write_exr(const std::filesystem::path& file, const Image& image);
 
 /// Tone-maps R, G, B to 8 bits with the sRGB curve. `exposure` in stops. Throws Error(output).
@@ -24,7 +25,8 @@ void write_png(const std::filesystem::path& file, const Image& image, float expo
 /// Throws Error(output) at once if `file` could not be written later: checked before a long render.
 void check_writable(const std::filesystem::path& file);
 
-/// Any format OpenImageIO reads, as float32 (8-bit files are decoded from sRGB). Throws Error(bad_input).
+/// Any format OpenImageIO reads, as float32 (8-bit files are decoded from sRGB). Throws
+/// Error(bad_input).
 Image read_image(const std::filesystem::path& file);
 
 /// A TextureLoader (see scene.hpp).

@@ -18,8 +18,9 @@ namespace wedge {
 /// Sobol with pixels in Z-order, the default (docs/method.md).
 enum class Sampler { sobol, hash };
 
-/// `mc`: plain path tracing, unbiased. `aaf`: shadows of rectangular lights on diffuse surfaces are sampled as
-/// densely as their frequencies ask for, and filtered (docs/method.md); all else as `mc`.
+/// `mc`: plain path tracing, unbiased. `aaf`: shadows of rectangular lights on diffuse surfaces are
+/// sampled as densely as their frequencies ask for, and filtered (docs/method.md); all else as
+/// `mc`.
 enum class Method { mc, aaf };
 
 struct Rect {
@@ -32,7 +33,7 @@ struct Progress {
 };
 
 struct RenderOptions {
-    std::string device;                    ///< index, part of a name, `cpu`, `gpu`; empty: the best there is
+    std::string device;  ///< index, part of a name, `cpu`, `gpu`; empty: the best there is
     std::optional<int> samples_per_pixel;  ///< else the scene's
     std::optional<int> bounces;            ///< else the scene's
     std::optional<double> time_limit_s;    ///< stop at the first batch boundary after this
@@ -41,13 +42,13 @@ struct RenderOptions {
     uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
     Sampler sampler = Sampler::sobol;
     Method method = Method::mc;
-    /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias; samples_per_pixel then
-    /// is the most a pixel gets, by default 100 * max(1, mu).
+    /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
+    /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu).
     float mu = 2;
-    std::string kernel_dir;              ///< read kernels from this source tree instead of the program
-    uint32_t local_size = 0;             ///< work-group size; 0: what suits the device
-    uint32_t tile_pixels = 0;            ///< pixels an enqueue; 0: what suits the device
-    const std::atomic<bool>* stop = nullptr;         ///< set it to end early with what there is
+    std::string kernel_dir;    ///< read kernels from this source tree instead of the program
+    uint32_t local_size = 0;   ///< work-group size; 0: what suits the device
+    uint32_t tile_pixels = 0;  ///< pixels an enqueue; 0: what suits the device
+    const std::atomic<bool>* stop = nullptr;           ///< set it to end early with what there is
     std::function<void(const Progress&)> on_progress;  ///< called from the rendering thread
 };
 
@@ -64,15 +65,16 @@ struct PassStats {
 struct RenderStats {
     DeviceInfo device;
     std::vector<PassStats> passes;
-    uint64_t rays = 0;     ///< closest-hit and occlusion queries
-    uint64_t samples = 0;  ///< pixel samples
+    uint64_t rays = 0;                ///< closest-hit and occlusion queries
+    uint64_t samples = 0;             ///< pixel samples
     uint64_t non_finite_samples = 0;  ///< dropped
     uint64_t device_bytes = 0;
     uint64_t triangles = 0, degenerate_triangles = 0, non_finite_triangles = 0;
     double flatten_s = 0, bvh_build_s = 0, upload_s = 0, compile_s = 0, render_s = 0;
     int programs_compiled = 0, programs_from_cache = 0;
     bool interrupted = false;  ///< by `stop`
-    std::string failure;       ///< device error that ended the render early; the image holds what was done
+    std::string
+        failure;  ///< device error that ended the render early; the image holds what was done
 };
 
 struct Frame {
@@ -81,12 +83,12 @@ struct Frame {
 };
 
 /// Renders by the method asked for.
-/// Throws Error(usage), Error(bad_input) or Error(device); a device error after the first samples ends the
-/// render early instead and is told in `stats.failure`.
+/// Throws Error(usage), Error(bad_input) or Error(device); a device error after the first samples
+/// ends the render early instead and is told in `stats.failure`.
 Frame render(const Scene& scene, const RenderOptions& options = {});
 
-/// Traces one pixel again and tells what each path met: place, material, throughput, light. The numbers
-/// are those of the render with the same options.
+/// Traces one pixel again and tells what each path met: place, material, throughput, light. The
+/// numbers are those of the render with the same options.
 std::string replay_pixel(const Scene& scene, const RenderOptions& options, int x, int y);
 
 /// "major.minor.patch".

@@ -1,4 +1,5 @@
-// A scene as plain data: what the files say, checked, in world units, before any device knows of it.
+// A scene as plain data: what the files say, checked, in world units, before any device knows of
+// it.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,8 @@
 
 namespace wedge {
 
-/// Pinhole camera. `position` != `target`; `up` not parallel to the view. Right-handed, y up by habit.
+/// Pinhole camera. `position` != `target`; `up` not parallel to the view. Right-handed, y up by
+/// habit.
 struct Camera {
     Vec3 position{0, 0, 5};
     Vec3 target{0, 0, 0};
@@ -38,7 +40,7 @@ struct TextureImage {
 struct Texture {
     std::string name;  ///< path as resolved; for messages
     TextureImage image;
-    Vec2 scale{1, 1};   ///< uv' = uv * scale + offset  (MTL -s, -o)
+    Vec2 scale{1, 1};  ///< uv' = uv * scale + offset  (MTL -s, -o)
     Vec2 offset{0, 0};
     float value_gain = 1;  ///< value' = value * gain + base  (MTL -mm base gain)
     float value_base = 0;
@@ -54,7 +56,7 @@ struct Material {
     Vec3 specular{0.0f};  ///< ks, [0, 1]; kd + ks <= 1 per channel
     float exponent = 0;   ///< m >= 0
     SpecularModel model = SpecularModel::none;
-    Vec3 emission{0.0f};  ///< radiance leaving the front side (W / m^2 / sr, by channel)
+    Vec3 emission{0.0f};       ///< radiance leaving the front side (W / m^2 / sr, by channel)
     int diffuse_texture = -1;  ///< indices into Scene::textures, multiply the constants; -1: none
     int specular_texture = -1;
     int emission_texture = -1;
@@ -86,7 +88,8 @@ struct RectLight {
     Vec3 edge_v{0, 0, 1};
     Vec3 radiance{1};  ///< at the centre
     LightProfile profile = LightProfile::uniform;
-    float sigma = 0;  ///< gaussian: standard deviation in world units; radiance * exp(-r^2 / (2 sigma^2))
+    float sigma =
+        0;  ///< gaussian: standard deviation in world units; radiance * exp(-r^2 / (2 sigma^2))
 };
 
 /// Isotropic point light.
@@ -103,8 +106,8 @@ struct Film {
 /// What the scene file asks for; command-line options override it.
 struct RenderDefaults {
     int samples_per_pixel = 64;
-    int bounces = 3;      ///< indirect bounces; 0 is direct light only
-    float exposure = 0;   ///< stops, for the PNG
+    int bounces = 3;     ///< indirect bounces; 0 is direct light only
+    float exposure = 0;  ///< stops, for the PNG
 };
 
 struct Scene {
@@ -131,8 +134,8 @@ struct LoadOptions {
     TextureLoader load_texture;  ///< empty: textures are left out, with a warning
 };
 
-/// Loads a JSON scene (docs/scene-format.md), or an OBJ file for which a camera and a light are made
-/// up (and said in the log). Throws Error(bad_input) that names file and place.
+/// Loads a JSON scene (docs/scene-format.md), or an OBJ file for which a camera and a light are
+/// made up (and said in the log). Throws Error(bad_input) that names file and place.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// Box of all instances in world space, lights included.

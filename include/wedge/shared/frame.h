@@ -9,7 +9,7 @@ WEDGE_SHARED_BEGIN
 /* A point (x, y) of the film, in pixels from the top left, looks along
    corner + x * step_x + y * step_y (not normalised) from `position`. */
 typedef struct CameraRays {
-    float4 position; /* w: largest magnitude of any coordinate of position; scales rounding errors */
+    float4 position; /* w: largest magnitude of a coordinate */
     float4 corner, step_x, step_y;
 } CameraRays;
 WEDGE_ASSERT_SIZE(CameraRays, 64);
@@ -26,7 +26,8 @@ typedef struct FrameParams {
     int sampler;
     int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence */
     int bounces;
-    int search_lights; /* 1: there is light that sampling finds badly or not at all: background, meshes */
+    int search_lights; /* 1: there is light that sampling finds badly or not at all: background,
+                          meshes */
     int unused;
 } FrameParams;
 WEDGE_ASSERT_SIZE(FrameParams, 128);

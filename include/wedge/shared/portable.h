@@ -11,7 +11,8 @@
 #include <cstdint>
 #define WEDGE_SHARED_BEGIN namespace wedge::shared {
 #define WEDGE_SHARED_END }
-#define WEDGE_ASSERT_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " changed its size")
+#define WEDGE_ASSERT_SIZE(type, bytes) \
+    static_assert(sizeof(type) == (bytes), #type " changed its size")
 namespace wedge::shared {
 struct alignas(16) float4 {
     float x, y, z, w;

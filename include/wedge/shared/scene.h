@@ -55,11 +55,12 @@ WEDGE_ASSERT_SIZE(TextureInfo, 48);
 /* Rectangle: points origin + a * edge_u + b * edge_v, a and b in [0, 1].
    Triangle: the same with a + b <= 1. Point: origin alone. Emits to the side `normal` points to. */
 typedef struct Light {
-    float4 origin; /* xyz, w: area (m^2) */
-    float4 edge_u; /* xyz, w: standard deviation along u as a fraction of |edge_u|; 0: uniform */
-    float4 edge_v; /* xyz, w: the same along v */
-    float4 normal; /* xyz unit, w: probability that this light is chosen */
-    float4 radiance; /* rgb (point: intensity), w: running sum of the probabilities up to and with this light */
+    float4 origin;   /* xyz, w: area (m^2) */
+    float4 edge_u;   /* xyz, w: standard deviation along u as a fraction of |edge_u|; 0: uniform */
+    float4 edge_v;   /* xyz, w: the same along v */
+    float4 normal;   /* xyz unit, w: probability that this light is chosen */
+    float4 radiance; /* rgb (point: intensity), w: running sum of the probabilities up to and with
+                        this light */
     int kind;
     int emission_texture; /* -1: none */
     uint primitive;       /* of a triangle light, for its texture coordinates */
