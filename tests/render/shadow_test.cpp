@@ -128,6 +128,22 @@ TEST_CASE("other_lights_gloss_and_bounces_stay_right_beside_filtered_shadows") {
               doctest::Approx(channel_mean(truth, channel)).epsilon(0.01));
 }
 
+TEST_CASE("a_large_lamp_over_gloss_is_counted_once") {
+    // So near that rays which happen to meet the lamp matter as much as those sent to it.
+    Material shiny = lambert(0.4f);
+    shiny.specular = Vec3(0.4f);
+    shiny.exponent = 20;
+    shiny.model = SpecularModel::phong;
+    Scene scene = make_scene({make_quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, 0)}, {shiny});
+    scene.film = {32, 24};
+    scene.camera = {.position = {0, 0.3f, 1.5f}, .target = {0, 0, 0}, .vertical_fov_rad = 0.5f};
+    scene.rect_lights = {{.center = {0, 0.7f, 0}, .edge_u = {2, 0, 0}, .edge_v = {0, 0, 2}}};
+    const Image truth = render(scene, quick(1024, 0, Sampler::sobol, 9)).image;
+    const Image image = render(scene, filtered(4)).image;
+    CHECK(channel_mean(image, "direct.G") ==
+          doctest::Approx(channel_mean(truth, "direct.G")).epsilon(0.01));
+}
+
 TEST_CASE("filtered_images_do_not_depend_on_work_groups_or_tiles") {
     const Scene scene = make_penumbra(LightProfile::uniform);
     const Image reference = render(scene, filtered(1)).image;
