@@ -187,8 +187,9 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
         for (uint i = 0; i < WEDGE_SAMPLE_BATCH && batch + i < sample_count; ++i) {
-            const Sampler sampler = make_sampler(params->sampler, params->seed, params->log2_samples,
-                                                 code, first_sample + batch + i);
+            const Sampler sampler =
+                make_sampler(params->sampler, params->seed, params->log2_samples,
+                             (uint)params->strata, code, first_sample + batch + i);
             const float2 jitter = draw_2d(&sampler, WEDGE_DIMENSION_FILM);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
             const PathResult r = trace_path(

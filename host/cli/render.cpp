@@ -128,7 +128,7 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--seed", a.seed, "Seed of all random numbers; default: 0");
     command.add_option("--method", a.method, "mc or aaf; default: mc");
     command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 2");
-    command.add_option("--sampler", a.sampler, "sobol or hash; default: sobol");
+    command.add_option("--sampler", a.sampler, "sobol, stratified or hash; default: sobol");
     command.add_option(
         "--sample-offset", a.sample_offset,
         fmt::format("First sample of each pixel, a multiple of {}; default: 0", kSampleBatch));

@@ -61,9 +61,9 @@ Method parse_method(const std::string& name) {
 }
 
 Sampler parse_sampler(const std::string& name) {
-    if (name == "sobol") return Sampler::sobol;
-    if (name == "hash") return Sampler::hash;
-    refuse("--sampler " + name + ": no such sampler; known: sobol, hash");
+    for (Sampler sampler : {Sampler::sobol, Sampler::stratified, Sampler::hash})
+        if (name == to_string(sampler)) return sampler;
+    refuse("--sampler " + name + ": no such sampler; known: sobol, stratified, hash");
 }
 
 std::vector<fs::path> output_files(const RenderArguments& arguments) {

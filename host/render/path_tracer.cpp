@@ -14,6 +14,18 @@ namespace {
 constexpr cl_uint kWorkArgs = 4;    // first_pixel, pixel_count, first_sample, sample_count
 constexpr cl_uint kShadowArgs = 3;  // all_shadows, sample_ends, probing
 
+int sampler_kind(Sampler sampler) {
+    switch (sampler) {
+        case Sampler::sobol:
+            return WEDGE_SAMPLER_SOBOL;
+        case Sampler::hash:
+            return WEDGE_SAMPLER_HASH;
+        case Sampler::stratified:
+            return WEDGE_SAMPLER_STRATIFIED;
+    }
+    return WEDGE_SAMPLER_SOBOL;
+}
+
 }  // namespace
 
 shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& settings,
@@ -28,7 +40,8 @@ shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& se
     params.crop_width = settings.crop.width;
     params.crop_height = settings.crop.height;
     params.seed = settings.seed;
-    params.sampler = settings.sampler == Sampler::sobol ? WEDGE_SAMPLER_SOBOL : WEDGE_SAMPLER_HASH;
+    params.sampler = sampler_kind(settings.sampler);
+    params.strata = settings.strata;
     params.log2_samples = settings.log2_samples;
     params.bounces = settings.bounces;
     const bool mesh_lights = std::any_of(lights.begin(), lights.end(), [](const auto& light) {

@@ -20,6 +20,7 @@ struct PathSettings {
     uint32_t seed = 0;
     Sampler sampler = Sampler::sobol;
     int log2_samples = 10;  ///< FrameParams::log2_samples
+    int strata = 1;         ///< FrameParams::strata
     uint32_t local_size = 0;
     std::string kernel_dir;
 };

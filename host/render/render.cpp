@@ -48,7 +48,7 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:version"] = version();
     m["wedge:method"] = options.method == Method::aaf ? "aaf" : "mc";
     if (options.method == Method::aaf) m["wedge:mu"] = fmt::format("{:g}", options.mu);
-    m["wedge:sampler"] = settings.sampler == Sampler::sobol ? "sobol" : "hash";
+    m["wedge:sampler"] = to_string(settings.sampler);
     m["wedge:seed"] = std::to_string(options.seed);
     m["wedge:bounces"] = std::to_string(settings.bounces);
     m["wedge:sampleOffset"] = std::to_string(options.sample_offset);
@@ -102,6 +102,18 @@ void add_filtered_light(std::vector<shared::FilmPixel>& film,
 
 const char* version() {
     return WEDGE_VERSION;
+}
+
+const char* to_string(Sampler sampler) {
+    switch (sampler) {
+        case Sampler::sobol:
+            return "sobol";
+        case Sampler::hash:
+            return "hash";
+        case Sampler::stratified:
+            return "stratified";
+    }
+    return "unknown";
 }
 
 Frame render(const Scene& scene, const RenderOptions& options) {

@@ -15,6 +15,7 @@ constexpr uint32_t kMaxSamples = 1u << 24;  // a float film counts samples up to
 constexpr int kMaxBounces = 1024;
 // Length of the Sobol stretch where the number of samples is not known beforehand.
 constexpr int kOpenEndedLog2 = 10;
+constexpr int kOpenEndedStrata = 16;
 
 [[noreturn]] void refuse(const std::string& message) {
     throw Error(ErrorKind::usage, message);
@@ -70,6 +71,7 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     const bool open_ended = options.time_limit_s && !options.samples_per_pixel;
     settings.log2_samples =
         open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
+    settings.strata = open_ended ? kOpenEndedStrata : int(samples);
     settings.local_size = options.local_size;
     settings.kernel_dir = options.kernel_dir;
     return settings;

@@ -15,8 +15,12 @@
 namespace wedge {
 
 /// `hash`: independent samples, textbook variance, for statistical tests. `sobol`: Owen-scrambled
-/// Sobol with pixels in Z-order, the default (docs/method.md).
-enum class Sampler { sobol, hash };
+/// Sobol with pixels in Z-order, the default. `stratified`: jittered strata, one sample in each, the
+/// yardstick of the papers (docs/method.md).
+enum class Sampler { sobol, hash, stratified };
+
+/// As users write it: "sobol", "hash", "stratified".
+const char* to_string(Sampler sampler);
 
 /// `mc`: plain path tracing, unbiased. `aaf`: shadows of rectangular lights on diffuse surfaces are
 /// sampled as densely as their frequencies ask for, and filtered (docs/method.md); all else as

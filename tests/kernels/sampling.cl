@@ -3,11 +3,11 @@
 #include "lib/light.clh"
 #include "lib/random.clh"
 
-__kernel void draw_points(int kind, uint seed, int log2_samples, uint pixel, uint first_sample,
+__kernel void draw_points(int kind, uint seed, int log2_samples, uint strata, uint pixel, uint first_sample,
                           uint dimension, uint count, __global float2* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    const Sampler s = make_sampler(kind, seed, log2_samples, pixel, first_sample + id);
+    const Sampler s = make_sampler(kind, seed, log2_samples, strata, pixel, first_sample + id);
     out[id] = draw_2d(&s, dimension);
 }
 
@@ -27,7 +27,7 @@ __kernel void sample_bsdf_directions(float4 parameters, float4 wo, uint seed, ui
     const uint id = get_global_id(0);
     if (id >= count) return;
     const Bsdf f = test_bsdf(parameters);
-    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 0u, id);
+    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 1u, 0u, id);
     const float3 n = (float3)(0.0f, 0.0f, 1.0f);
     const float3 wi = sample_bsdf(&f, n, wo.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
     float pdf;
@@ -52,7 +52,7 @@ __kernel void sample_light_points(WEDGE_SCENE_PARAMS, float4 from, uint seed, ui
     const uint id = get_global_id(0);
     if (id >= count) return;
     const Scene scene = WEDGE_SCENE_ARGS;
-    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 0u, id);
+    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 1u, 0u, id);
     const LightSample light = sample_light(&scene, 0, from.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
     out[id] = (float4)(light.position, light.pdf);
 }

@@ -25,9 +25,9 @@ std::vector<T> SamplingKernels::run(const char* name, uint32_t count, const Args
 
 std::vector<float2> SamplingKernels::points(int sampler, uint32_t seed, int log2_samples,
                                             uint32_t pixel, uint32_t first_sample,
-                                            uint32_t dimension, uint32_t count) {
-    return run<float2>("draw_points", count, cl_int(sampler), seed, cl_int(log2_samples), pixel,
-                       first_sample, dimension, count);
+                                            uint32_t dimension, uint32_t count, uint32_t strata) {
+    return run<float2>("draw_points", count, cl_int(sampler), seed, cl_int(log2_samples), strata,
+                       pixel, first_sample, dimension, count);
 }
 
 std::vector<float4> SamplingKernels::bsdf_directions(float4 parameters, float4 wo, uint32_t seed,

@@ -20,8 +20,10 @@ class SamplingKernels {
     SamplingKernels();
 
     /// kernels/lib/random.clh
+    /// `strata` counts for WEDGE_SAMPLER_STRATIFIED, `log2_samples` for WEDGE_SAMPLER_SOBOL.
     std::vector<float2> points(int sampler, uint32_t seed, int log2_samples, uint32_t pixel,
-                               uint32_t first_sample, uint32_t dimension, uint32_t count);
+                               uint32_t first_sample, uint32_t dimension, uint32_t count,
+                               uint32_t strata = 1);
     /// Directions and weights f cos / pdf; `parameters`: diffuse, specular, exponent, model.
     std::vector<float4> bsdf_directions(float4 parameters, float4 wo, uint32_t seed,
                                         uint32_t count);

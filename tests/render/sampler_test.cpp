@@ -57,9 +57,47 @@ TEST_CASE("sobol_points_of_neighbouring_pixels_are_a_net_together") {
     }
 }
 
+TEST_CASE("strata_hold_one_sample_each") {
+    SamplingKernels kernels;
+    struct Grid {
+        uint32_t strata, columns, rows;
+    };
+    for (const Grid& grid : {Grid{1, 1, 1}, {9, 3, 3}, {16, 4, 4}, {28, 5, 5}, {1000, 31, 32}})
+        for (uint32_t dimension : {0u, 5u})
+            for (uint32_t first : {0u, grid.strata}) {
+                std::vector<int> hits(grid.columns * grid.rows, 0);
+                int twice = 0;
+                for (const float2& p : kernels.points(WEDGE_SAMPLER_STRATIFIED, 3, 0, 17, first,
+                                                      dimension, grid.strata, grid.strata)) {
+                    const auto column = std::size_t(p.x * float(grid.columns));
+                    const auto row = std::size_t(p.y * float(grid.rows));
+                    twice += ++hits[row * grid.columns + column] > 1;
+                }
+                // Those that do not fit the grid fall anywhere.
+                CHECK(twice == int(grid.strata - grid.columns * grid.rows));
+            }
+}
+
+TEST_CASE("strata_of_two_dimensions_are_paired_at_random") {
+    SamplingKernels kernels;
+    // The columns of two dimension pairs, over many pixels: all combinations alike (chi-square).
+    constexpr uint32_t kSide = 4, kStrata = kSide * kSide;
+    std::vector<double> observed(kSide * kSide, 0.0);
+    for (uint32_t pixel = 0; pixel < 400; ++pixel) {
+        const auto a =
+            kernels.points(WEDGE_SAMPLER_STRATIFIED, 1, 0, pixel, 0, 2, kStrata, kStrata);
+        const auto b =
+            kernels.points(WEDGE_SAMPLER_STRATIFIED, 1, 0, pixel, 0, 3, kStrata, kStrata);
+        for (std::size_t i = 0; i < a.size(); ++i)
+            observed[std::size_t(a[i].x * kSide) * kSide + std::size_t(b[i].x * kSide)] += 1;
+    }
+    const std::vector<double> expected(observed.size(), 400.0 * kStrata / double(observed.size()));
+    CHECK(chi_square_p_value(observed, expected) > 1e-4);
+}
+
 TEST_CASE("seeds_pixels_and_dimensions_give_different_points") {
     SamplingKernels kernels;
-    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL}) {
+    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED}) {
         const float2 p = kernels.points(sampler, 1, 6, 10, 0, 0, 1)[0];
         for (const float2& q : {kernels.points(sampler, 2, 6, 10, 0, 0, 1)[0],
                                 kernels.points(sampler, 1, 6, 11, 0, 0, 1)[0],
@@ -72,7 +110,7 @@ TEST_CASE("seeds_pixels_and_dimensions_give_different_points") {
 TEST_CASE("points_are_uniform_over_the_square") {
     SamplingKernels kernels;
     constexpr int kSide = 32;
-    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL}) {
+    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED}) {
         std::vector<double> observed(kSide * kSide, 0.0);
         // One sample each of many pixels of different seeds: for Sobol, its scrambling alone.
         const uint32_t count = 100;

@@ -16,6 +16,7 @@ WEDGE_ASSERT_SIZE(CameraRays, 64);
 
 #define WEDGE_SAMPLER_HASH 0
 #define WEDGE_SAMPLER_SOBOL 1
+#define WEDGE_SAMPLER_STRATIFIED 2
 
 typedef struct FrameParams {
     CameraRays camera;
@@ -28,7 +29,7 @@ typedef struct FrameParams {
     int bounces;
     int search_lights; /* 1: there is light that sampling finds badly or not at all: background,
                           meshes */
-    int unused;
+    int strata;        /* samples that the stratified sampler deals out at a time, > 0 */
 } FrameParams;
 WEDGE_ASSERT_SIZE(FrameParams, 128);
 
