@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/scene/check_scene.hpp"
 #include "wedge/error.hpp"
 
 namespace wedge::rendering {
@@ -47,6 +48,7 @@ uint32_t sample_count(const Scene& scene, const RenderOptions& options) {
 }
 
 PathSettings make_path_settings(const Scene& scene, const RenderOptions& options) {
+    scene::check_scene(scene);
     PathSettings settings;
     settings.crop = checked_crop(scene.film, options.crop);
     settings.bounces = options.bounces.value_or(scene.defaults.bounces);
