@@ -5,8 +5,8 @@
    the ray happens to meet counts too, both weighted by the balance heuristic (Veach 1997, eq. 9.8).
 
    WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
-   WEDGE_SHADOW_LIGHTS: shadows of that many lights, the first of the list, are kept apart for filtering
-   (shadow.cl); 0: none.
+   WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for filtering (lib/signals.clh,
+   filter.cl), beside the plain estimate.
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
 #include "lib/film.clh"
 #include "lib/light.clh"
@@ -21,18 +21,11 @@ typedef struct {
     float depth;
     float hit; /* 1 if the camera ray met anything */
     uint rays;
+#if WEDGE_SIGNALS > 0
+    float3 filtered_direct, filtered_indirect; /* what filters take the place of */
+#endif
     WEDGE_REPLAY_FIELD
 } PathResult;
-
-/* Adds radiance found after `scatterings` surfaces to the part of the image it belongs to. */
-inline void add_radiance(PathResult* result, int scatterings, float3 radiance) {
-    if (scatterings == 0)
-        result->emission += radiance;
-    else if (scatterings == 1)
-        result->direct += radiance;
-    else
-        result->indirect += radiance;
-}
 
 inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     Ray ray;
@@ -65,30 +58,92 @@ inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f,
     return value * light.radiance * (dot(s->normal, wi) * weight / light.pdf);
 }
 
+/* What becomes of light that reaches the first hit along the scattered ray. */
+typedef struct {
+    float3 reflected; /* share that goes on to the camera, over the ray's density */
+#if WEDGE_SIGNALS > 0
+    float3 lobe_share;  /* of `reflected`: by the lobe */
+    float diffuse, lobe; /* the same for kd = 1 and for ks = 1 alone */
+#endif
+} FirstBounce;
+
+inline FirstBounce first_bounce(const Bsdf* f, const Surface* s, float3 wo, float3 wi, float3 value,
+                                float pdf) {
+    FirstBounce b;
+    const float cos_over_pdf = dot(s->normal, wi) / pdf;
+    b.reflected = value * cos_over_pdf;
+#if WEDGE_SIGNALS > 0
+    const float3 diffuse = f->diffuse * WEDGE_INV_PI;
+    b.lobe_share = 1.0f - diffuse / fmax(value, 1e-30f);
+    b.diffuse = WEDGE_INV_PI * cos_over_pdf;
+    b.lobe = lobe_value(f, s->normal, wo, wi) * cos_over_pdf;
+#endif
+    return b;
+}
+
+#if WEDGE_SIGNALS > 0
+/* Probe samples note how far away what they see from the first hit is. */
+inline void note_reflector(const PixelSignals* signals, int surface, float distance, bool by_lobe) {
+#ifdef WEDGE_FILTER_HEMISPHERE
+    if (!signals->probing) return;
+    add_distance(signals, surface, WEDGE_SIGNAL_DIFFUSE, distance);
+#ifdef WEDGE_SPECULAR
+    if (by_lobe) add_distance(signals, surface, WEDGE_SIGNAL_LOBE, distance);
+#endif
+#endif
+}
+#endif
+
+#ifdef WEDGE_FILTER_HEMISPHERE
+#define WEDGE_SKY_IS_FILTERED 1
+
+inline void add_hemisphere(const PixelSignals* signals, int surface, const FirstBounce* first,
+                           float3 arriving) {
+    const bool any = max_component(arriving) > 0.0f;
+    const float3 none = (float3)(0.0f);
+    add_signal(signals, surface, WEDGE_SIGNAL_DIFFUSE, any ? first->diffuse * arriving : none);
+#ifdef WEDGE_SPECULAR
+    add_signal(signals, surface, WEDGE_SIGNAL_LOBE, any ? first->lobe * arriving : none);
+#endif
+}
+#else
+#define WEDGE_SKY_IS_FILTERED 0
+#endif
+
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
-                             float3 view_axis, const Sampler* sampler WEDGE_SHADOW_PARAMS WEDGE_REPLAY_PARAMS) {
+                             float3 view_axis, const Sampler* sampler WEDGE_SIGNAL_PARAMS WEDGE_REPLAY_PARAMS) {
     PathResult result;
     WEDGE_IF_REPLAY(result.record = record;)
     result.emission = result.direct = result.indirect = (float3)(0.0f);
     result.albedo = result.normal = result.position = (float3)(0.0f);
     result.depth = result.hit = 0.0f;
     result.rays = 0;
+#if WEDGE_SIGNALS > 0
+    result.filtered_direct = result.filtered_indirect = (float3)(0.0f);
+    int surface = 0;
+    bool by_lobe = false;
+#endif
     const float3 background = params->background.xyz;
     const int bounces = params->bounces;
 
-    float3 throughput = (float3)(1.0f);
+    FirstBounce first;
+    float3 arriving = (float3)(0.0f);   /* at the first hit, along the scattered ray */
+    float3 throughput = (float3)(1.0f); /* since the first hit */
     float3 ray_start = ray.origin; /* the surface point itself: light was sampled as seen from there */
-#if WEDGE_SHADOW_LIGHTS > 0
-    float3 specular_share = (float3)(0.0f); /* of the last scattering */
-#endif
     float pdf_direction = 0.0f; /* of the ray, over solid angle; 0: only this ray could find the light */
     for (int depth = 0; depth <= bounces + 1; ++depth) {
         result.rays += 1;
         const Hit hit = trace_closest(scene->nodes, scene->blocks, ray);
         if (hit.primitive == WEDGE_NO_PRIMITIVE) {
-            add_radiance(&result, depth, throughput * background);
-            WEDGE_IF_REPLAY(
-                record_miss(result.record + depth, ray.direction, throughput, background);)
+            if (depth == 0)
+                result.emission = background;
+            else if (depth == 1 && !WEDGE_SKY_IS_FILTERED)
+                result.direct += first.reflected * background;
+            else
+                arriving += throughput * background;
+            WEDGE_IF_REPLAY(record_miss(result.record + depth, ray.direction,
+                                        depth > 0 ? first.reflected * throughput : throughput,
+                                        background);)
             break;
         }
         const float3 wo = -ray.direction;
@@ -99,11 +154,16 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         if (max_component(emitted) > 0.0f) {
             float3 share = (float3)(1.0f);
 #if WEDGE_SHADOW_LIGHTS > 0
-            if (depth == 1) share = share_at_first_hit(scene, s.light, specular_share, &pdf_light);
+            if (depth == 1) share = share_at_first_hit(scene, s.light, first.lobe_share, &pdf_light);
 #endif
             const float weight =
                 pdf_direction > 0.0f ? pdf_direction / (pdf_direction + pdf_light) : 1.0f;
-            add_radiance(&result, depth, throughput * share * emitted * weight);
+            if (depth == 0)
+                result.emission = emitted;
+            else if (depth == 1)
+                result.direct += first.reflected * share * emitted * weight;
+            else
+                arriving += throughput * emitted * weight;
         }
         const Bsdf f = bsdf_at(scene, &s);
         if (depth == 0) {
@@ -112,9 +172,22 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             result.normal = s.normal;
             result.position = s.position;
             result.depth = hit.t * dot(ray.direction, view_axis);
+#if WEDGE_SIGNALS > 0
+            surface = add_to_surface(signals, &s, &f, hit.t * signals->pixel_angle);
+            if (signals->camera_only) {
+#if WEDGE_SHADOW_LIGHTS > 0
+                sample_shadow_lights(scene, &s, &f, wo, sampler, surface, signals,
+                                     &result.filtered_direct);
+#endif
+                break;
+            }
+        } else if (depth == 1) {
+            note_reflector(signals, surface, hit.t, by_lobe);
+#endif
         }
+        const float3 so_far = depth > 0 ? first.reflected * throughput : throughput;
         if (depth > bounces) {
-            WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, throughput,
+            WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, so_far,
                                    emitted, (float3)(0.0f), s.primitive, s.material);)
             break;
         }
@@ -128,7 +201,8 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 #if WEDGE_SHADOW_LIGHTS > 0
         if (depth == 0) {
             first_light = WEDGE_SHADOW_LIGHTS;
-            direct = sample_shadow_lights(scene, &s, &f, wo, sampler, shadows, probing);
+            direct = sample_shadow_lights(scene, &s, &f, wo, sampler, surface, signals,
+                                          &result.filtered_direct);
             result.rays += WEDGE_SHADOW_LIGHTS;
         }
 #endif
@@ -136,8 +210,11 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
             direct += sample_direct(scene, &s, &f, wo, first_light, choice.x, u, goes_on, &result);
         }
-        add_radiance(&result, depth + 1, throughput * direct);
-        WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, throughput,
+        if (depth == 0)
+            result.direct += direct;
+        else
+            arriving += throughput * direct;
+        WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, so_far,
                                    emitted, direct, s.primitive, s.material);)
         if (!goes_on) break;
 
@@ -146,11 +223,16 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         if (!is_above(&s, wi)) break;
         const float3 value = eval_bsdf(&f, s.normal, wo, wi, &pdf_direction);
         if (!(pdf_direction > 0.0f)) break;
-#if WEDGE_SHADOW_LIGHTS > 0
-        specular_share = 1.0f - f.diffuse * WEDGE_INV_PI / fmax(value, 1e-30f);
+        if (depth == 0) {
+            first = first_bounce(&f, &s, wo, wi, value, pdf_direction);
+#if WEDGE_SIGNALS > 0
+            by_lobe = choice.y < f.specular_chance;
 #endif
-        throughput *= value * (dot(s.normal, wi) / pdf_direction);
-        if (!(max_component(throughput) > 0.0f)) break;
+            if (!(max_component(first.reflected) > 0.0f)) break;
+        } else {
+            throughput *= value * (dot(s.normal, wi) / pdf_direction);
+            if (!(max_component(throughput) > 0.0f)) break;
+        }
 
         ray_start = s.position;
         ray.origin = offset_origin(s.position, s.position_error, s.face_normal, wi);
@@ -158,17 +240,39 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         ray.t_max = INFINITY;
         ray.source = s.primitive;
     }
+    if (max_component(arriving) > 0.0f) result.indirect = first.reflected * arriving;
+#ifdef WEDGE_FILTER_HEMISPHERE
+    if (result.hit > 0.0f && surface >= 0 && !signals->camera_only) {
+        add_hemisphere(signals, surface, &first, arriving);
+        result.filtered_indirect = result.indirect;
+    }
+#endif
     return result;
 }
 
+#if WEDGE_SIGNALS > 0
+inline void add_unfiltered(const PixelSignals* signals, float3 direct, float3 indirect) {
+    if (!all_finite(direct + indirect)) return;
+    const int half_index = signals->half_index;
+    signals->unfiltered->direct[half_index] += (float4)(direct, 1.0f);
+    signals->unfiltered->indirect[half_index].xyz += indirect;
+}
+#endif
+
+#if WEDGE_SIGNALS > 0
+#define WEDGE_IS_WHOLE_PATH (!signals.camera_only)
+#else
+#define WEDGE_IS_WHOLE_PATH true
+#endif
+
 /* WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel at a time. */
 /* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel +
-   pixel_count) of the crop, counted along its rows; with shadows, no more than sample_ends says. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH:
+   pixel_count) of the crop, counted along its rows; with filters, no more than sample_ends says. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH:
    sums are taken batch by batch, so that any split of the samples into launches adds up alike. */
 __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCENE_PARAMS,
                           __global FilmPixel* restrict film, uint first_pixel, uint pixel_count,
                           uint first_sample,
-                          uint sample_count WEDGE_SHADOW_KERNEL_PARAMS WEDGE_REPLAY_PARAMS) {
+                          uint sample_count WEDGE_SIGNAL_KERNEL_PARAMS WEDGE_REPLAY_PARAMS) {
     const uint id = get_global_id(0);
     if (id >= pixel_count) return;
     const Scene scene = WEDGE_SCENE_ARGS;
@@ -179,10 +283,21 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const uint y = (uint)params->crop_y + pixel / (uint)params->crop_width;
     const uint code = morton_code(x, y);
 
-#if WEDGE_SHADOW_LIGHTS > 0
-    const uint end = min(first_sample + sample_count, sample_ends[pixel]);
+#if WEDGE_SIGNALS > 0
+    const uint2 ends = sample_ends[pixel]; /* of whole paths, of camera rays */
+    const uint end = min(first_sample + sample_count, max(ends.x, ends.y));
     sample_count = end > first_sample ? end - first_sample : 0u;
-    __global ShadowPixel* shadows = all_shadows + pixel * WEDGE_SHADOW_LIGHTS;
+    const uint halves = second_half(ends.x, (uint)filter_settings->probe_samples);
+    PixelSignals signals = {
+        all_surfaces + pixel * WEDGE_SURFACES,
+        all_sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2,
+        all_distances + pixel * WEDGE_SURFACES * WEDGE_SIGNALS,
+        all_reflected + pixel * WEDGE_SURFACES * WEDGE_SHADOW_LIGHTS,
+        all_unfiltered + pixel,
+        filter_settings->pixel_angle,
+        0,
+        probing,
+        0};
 #endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
@@ -190,12 +305,22 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
             const Sampler sampler =
                 make_sampler(params->sampler, params->seed, params->log2_samples,
                              (uint)params->strata, code, first_sample + batch + i);
+#if WEDGE_SIGNALS > 0
+            signals.half_index = first_sample + batch + i >= halves;
+            signals.camera_only = first_sample + batch + i >= ends.x;
+#endif
             const float2 jitter = draw_2d(&sampler, WEDGE_DIMENSION_FILM);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
             const PathResult r = trace_path(
                 &scene, params, ray, view_axis,
-                &sampler WEDGE_SHADOW_ARGS WEDGE_IF_REPLAY(, record + (batch + i) * (uint)(params->bounces + 2)));
-            add_sample(&sum, r.emission, r.direct, r.indirect, r.rays);
+                &sampler WEDGE_SIGNAL_ARGS WEDGE_IF_REPLAY(, record + (batch + i) * (uint)(params->bounces + 2)));
+            if (WEDGE_IS_WHOLE_PATH) add_sample(&sum, r.emission, r.direct, r.indirect, r.rays);
+#if WEDGE_SIGNALS > 0
+            if (signals.camera_only)
+                add_camera_sample(&sum, r.emission, r.rays);
+            else
+                add_unfiltered(&signals, r.filtered_direct, r.filtered_indirect);
+#endif
             add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
         }
         film[pixel] = sum_film_pixels(film[pixel], sum);

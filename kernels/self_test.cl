@@ -5,7 +5,7 @@
 #include "wedge/shared/frame.h"
 #include "wedge/shared/replay.h"
 #include "wedge/shared/scene.h"
-#include "wedge/shared/shadow.h"
+#include "wedge/shared/filter.h"
 
 // PCG RXS-M-XS 32 (O'Neill 2014, section 6.3), stretched over the other integer operations in use.
 static uint integer_answer(uint i) {

@@ -10,8 +10,9 @@
 namespace wedge::cli {
 namespace {
 
-constexpr std::array<const char*, 10> kLayers{"direct", "indirect", "emission", "albedo", "N",
-                                              "P",      "Z",        "variance", "spp",    "width"};
+constexpr std::array kLayers{"direct", "indirect", "emission", "albedo", "N",
+                             "P",      "Z",        "variance", "spp",    "width",
+                             "guard",  "near",     "far",      "error",  "unfiltered"};
 
 bool same_name(const std::string& a, const char* b) {
     return strcasecmp(a.c_str(), b) == 0;

@@ -17,7 +17,7 @@
 #include "wedge/shared/frame.h"
 #include "wedge/shared/replay.h"
 #include "wedge/shared/scene.h"
-#include "wedge/shared/shadow.h"
+#include "wedge/shared/filter.h"
 
 namespace wedge::device {
 namespace {

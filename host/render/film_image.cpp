@@ -37,29 +37,32 @@ struct ChannelWriter {
 };
 
 void write_pixel(const shared::FilmPixel& p, float* out) {
-    const double n = p.direct.w, dropped = p.square.w;
-    if (n + dropped <= 0) return;
-    // Geometry comes from every sample; a pixel whose samples were all dropped is black.
-    const double mean = n > 0 ? 1 / n : 0, seen = n + dropped;
-    const double total[3] = {double(p.emission.x) + p.direct.x + p.indirect.x,
-                             double(p.emission.y) + p.direct.y + p.indirect.y,
-                             double(p.emission.z) + p.direct.z + p.indirect.z};
+    const double n = p.direct.w, seen = p.normal.w;
+    if (seen <= 0) return;
+    // Geometry comes from every camera ray; a pixel whose samples were all dropped is black.
+    const double mean = n > 0 ? 1 / n : 0, emission = p.position.w > 0 ? 1 / p.position.w : 0;
+    const auto total = [&](float emitted, float direct, float indirect) {
+        return emission * emitted + mean * (double(direct) + indirect);
+    };
+    const double beauty[3] = {total(p.emission.x, p.direct.x, p.indirect.x),
+                              total(p.emission.y, p.direct.y, p.indirect.y),
+                              total(p.emission.z, p.direct.z, p.indirect.z)};
     const double hits = p.emission.w, per_hit = hits > 0 ? 1 / hits : 0;
     const double normal_length = std::hypot(p.normal.x, p.normal.y, p.normal.z);
 
     ChannelWriter writer{out};
-    for (double sum : total) writer.value(sum * mean);
+    for (double value : beauty) writer.value(value);
     writer.value(hits / seen);
     writer.rgb(p.direct, mean);
     writer.rgb(p.indirect, mean);
-    writer.rgb(p.emission, mean);
+    writer.rgb(p.emission, emission);
     writer.rgb(p.albedo, 1 / seen);
     writer.rgb(p.normal, normal_length > 0 ? 1 / normal_length : 0);
     writer.rgb(p.position, per_hit);
     writer.value(p.albedo.w * per_hit);
-    writer.value(variance_of_mean(total[0], p.square.x, n));
-    writer.value(variance_of_mean(total[1], p.square.y, n));
-    writer.value(variance_of_mean(total[2], p.square.z, n));
+    writer.value(variance_of_mean(n * beauty[0], p.square.x, n));
+    writer.value(variance_of_mean(n * beauty[1], p.square.y, n));
+    writer.value(variance_of_mean(n * beauty[2], p.square.z, n));
     writer.value(n);
 }
 
@@ -79,18 +82,21 @@ Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film,
     return image;
 }
 
-void add_channel(Image& image, const std::string& name, std::span<const float> values,
-                 const Rect& crop) {
-    if (values.empty()) return;
-    const std::size_t before = image.channels.size(), after = before + 1;
+void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop) {
+    const std::size_t before = image.channels.size(), after = before + channels.size();
     std::vector<float> pixels(image.pixels.size() / before * after, 0.0f);
     for (std::size_t i = 0; i * before < image.pixels.size(); ++i)
         std::copy_n(&image.pixels[i * before], before, &pixels[i * after]);
     image.pixels = std::move(pixels);
-    image.channels.push_back(name);
-    for (int y = 0; y < crop.height; ++y)
-        for (int x = 0; x < crop.width; ++x)
-            image.at(crop.x + x, crop.y + y, int(before)) = values[std::size_t(y) * crop.width + x];
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+        image.channels.push_back(channels[k].first);
+        for (int y = 0; y < crop.height; ++y)
+            for (int x = 0; x < crop.width; ++x) {
+                const auto pixel = std::size_t(crop.y + y) * image.width + crop.x + x;
+                image.pixels[pixel * after + before + k] =
+                    channels[k].second[std::size_t(y) * crop.width + x];
+            }
+    }
 }
 
 }  // namespace wedge::rendering

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "host/render/filter_layers.hpp"
 #include "wedge/image.hpp"
 #include "wedge/render.hpp"
 #include "wedge/shared/frame.h"
@@ -13,8 +14,7 @@ namespace wedge::rendering {
 /// Channels are described in docs/output.md.
 Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop);
 
-/// Appends a channel; `values` are the crop's, row by row. Empty: nothing is appended.
-void add_channel(Image& image, const std::string& name, std::span<const float> values,
-                 const Rect& crop);
+/// Appends channels; their values are the crop's, row by row.
+void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop);
 
 }  // namespace wedge::rendering

@@ -1,6 +1,7 @@
 #include "host/render/path_tracer.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "host/base/stopwatch.hpp"
 #include "host/bvh/bvh.hpp"
@@ -11,8 +12,8 @@
 namespace wedge::rendering {
 namespace {
 
-constexpr cl_uint kWorkArgs = 4;    // first_pixel, pixel_count, first_sample, sample_count
-constexpr cl_uint kShadowArgs = 3;  // all_shadows, sample_ends, probing
+constexpr cl_uint kWorkArgs = 4;       // first_pixel, pixel_count, first_sample, sample_count
+constexpr cl_uint kSignalBuffers = 7;  // kernels/lib/signals.clh; then probing
 
 int sampler_kind(Sampler sampler) {
     switch (sampler) {
@@ -99,9 +100,9 @@ void PathTracer::compile(const Plan& plan, const PathSettings& settings, Recordi
     kernel_.setArg(film_arg, film_);
     first_work_arg_ = film_arg + 1;
 
-    has_shadows_ = plan.shadow_lights > 0;
-    record_arg_ = first_work_arg_ + kWorkArgs + (has_shadows_ ? kShadowArgs : 0);
-    if (!has_shadows_ && recording == Recording::off) warm_up();
+    has_signals_ = plan.signals > 0;
+    record_arg_ = first_work_arg_ + kWorkArgs + (has_signals_ ? kSignalBuffers + 1 : 0);
+    if (!has_signals_ && recording == Recording::off) warm_up();
     (programs[0].from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
     stats.compile_s = watch.lap();
 }
@@ -112,9 +113,10 @@ void PathTracer::warm_up() {
     add_samples({});
 }
 
-void PathTracer::attach_shadows(const cl::Buffer& shadows, const cl::Buffer& sample_ends) {
-    kernel_.setArg(first_work_arg_ + kWorkArgs, shadows);
-    kernel_.setArg(first_work_arg_ + kWorkArgs + 1, sample_ends);
+void PathTracer::attach_signals(std::span<const cl::Buffer> buffers) {
+    assert(has_signals_ && buffers.size() == kSignalBuffers);
+    cl_uint arg = first_work_arg_ + kWorkArgs;
+    for (const cl::Buffer& buffer : buffers) kernel_.setArg(arg++, buffer);
     warm_up();
 }
 
@@ -123,7 +125,7 @@ double PathTracer::add_samples(const Work& work) {
     for (uint32_t value :
          {work.first_pixel, work.pixel_count, work.first_sample, work.sample_count})
         kernel_.setArg(arg++, cl_uint(value));
-    if (has_shadows_) kernel_.setArg(arg + 2, cl_int(work.probing));
+    if (has_signals_) kernel_.setArg(arg + kSignalBuffers, cl_int(work.probing));
     const uint32_t work_items = work.pixel_count > 0 ? work.pixel_count : 1;
     const cl::Event event = device_.launch(kernel_, work_items, local_size_);
     return device::device_seconds(event);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "host/device/device.hpp"
@@ -29,7 +30,7 @@ struct PathSettings {
 struct Work {
     uint32_t first_pixel = 0, pixel_count = 0;
     uint32_t first_sample = 0, sample_count = 0;
-    bool probing = false;  ///< with shadows: note distances to occluders
+    bool probing = false;  ///< with filters: note distances
 };
 
 /// Whether paths are written down as they are traced.
@@ -47,10 +48,9 @@ class PathTracer {
     /// Recording::on, one pixel: traces the samples and returns bounces + 2 vertices for each.
     std::vector<shared::PathVertex> record_samples(uint32_t first_sample, uint32_t sample_count);
 
-    /// A plan with shadows: where they go (shared::ShadowPixel, one for each pixel and light) and
-    /// how many samples each pixel gets at the most (uint32_t). To be called before samples are
-    /// added.
-    void attach_shadows(const cl::Buffer& shadows, const cl::Buffer& sample_ends);
+    /// A plan with signals: the buffers that take them, in the order of the kernel's arguments
+    /// (kernels/lib/signals.clh). To be called before samples are added.
+    void attach_signals(std::span<const cl::Buffer> buffers);
 
     const cl::Buffer& params() const { return params_; }
     const cl::Buffer& film() const { return film_; }
@@ -72,7 +72,7 @@ class PathTracer {
     cl::Buffer params_, film_;
     cl::Kernel kernel_;
     cl_uint first_work_arg_ = 0, record_arg_ = 0;
-    bool has_shadows_ = false;
+    bool has_signals_ = false;
     uint32_t pixel_count_ = 0;
     uint32_t local_size_ = 0;
     uint32_t vertices_per_path_ = 0;

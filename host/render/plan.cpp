@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/render/lights.hpp"
-#include "wedge/shared/shadow.h"
+#include "wedge/shared/filter.h"
 
 namespace wedge::rendering {
 namespace {
@@ -29,7 +29,7 @@ int count_shadow_lights(const Scene& scene) {
 
 }  // namespace
 
-Plan make_plan(const Scene& scene, Method method) {
+Plan make_plan(const Scene& scene, Method method, int bounces) {
     Plan plan;
     const std::vector<bool> used = used_materials(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -43,11 +43,16 @@ Plan make_plan(const Scene& scene, Method method) {
     plan.path_program.defines = {"WEDGE_SAMPLE_BATCH=" + std::to_string(kSampleBatch)};
     if (plan.specular) plan.path_program.defines.push_back("WEDGE_SPECULAR=1");
     if (plan.textures) plan.path_program.defines.push_back("WEDGE_TEXTURES=1");
-    if (method == Method::aaf) plan.shadow_lights = count_shadow_lights(scene);
-    if (plan.shadow_lights > 0) {
-        const std::string define = "WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights);
-        plan.path_program.defines.push_back(define);
-        plan.shadow_program = {"kernels/shadow.cl", {define}};
+    if (method == Method::aaf) {
+        plan.shadow_lights = count_shadow_lights(scene);
+        plan.hemisphere = bounces > 0 || scene.background != Vec3(0);
+    }
+    plan.signals = plan.shadow_lights + (plan.hemisphere ? 1 + plan.specular : 0);
+    if (plan.signals > 0) {
+        auto& defines = plan.path_program.defines;
+        defines.push_back("WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights));
+        if (plan.hemisphere) defines.push_back("WEDGE_FILTER_HEMISPHERE=1");
+        plan.filter_programs = {{"kernels/filter.cl", defines}, {"kernels/guard.cl", {}}};
     }
     return plan;
 }

@@ -1,6 +1,8 @@
 // What a frame consists of, decided from the scene before anything is allocated or compiled.
 #pragma once
 
+#include <vector>
+
 #include "host/device/program.hpp"
 #include "wedge/render.hpp"
 #include "wedge/scene.hpp"
@@ -9,13 +11,15 @@ namespace wedge::rendering {
 
 /// Effects the scene has. Nothing is compiled or stored for those it has not.
 struct Plan {
-    bool specular = false;  ///< any visible material has a Phong or Blinn-Phong lobe
-    bool textures = false;  ///< any visible material has an image
-    int shadow_lights = 0;  ///< rectangles whose shadows are filtered; 0: plain Monte Carlo
+    bool specular = false;    ///< any visible material has a Phong or Blinn-Phong lobe
+    bool textures = false;    ///< any visible material has an image
+    int shadow_lights = 0;    ///< rectangles whose shadows are filtered
+    bool hemisphere = false;  ///< indirect light and that of the background is filtered
+    int signals = 0;  ///< that are filtered, for each surface of a pixel; 0: plain Monte Carlo
     device::ProgramRequest path_program;
-    device::ProgramRequest shadow_program;  ///< if shadow_lights > 0
+    std::vector<device::ProgramRequest> filter_programs;  ///< if signals > 0: filter, guard
 };
 
-Plan make_plan(const Scene& scene, Method method);
+Plan make_plan(const Scene& scene, Method method, int bounces);
 
 }  // namespace wedge::rendering

@@ -8,10 +8,11 @@
 
 #include "host/device/self_test.hpp"
 #include "host/render/film_image.hpp"
+#include "host/render/filter_layers.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/render_settings.hpp"
 #include "host/render/sampling_loop.hpp"
-#include "host/render/shadow_filter.hpp"
+#include "host/render/signal_filter.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
 
@@ -66,37 +67,38 @@ void check_local_size(const device::Device& device, uint32_t local_size) {
                                                   largest, device.info().name, local_size));
 }
 
-struct FilteredLight {
-    std::vector<shared::float4> radiance;  ///< rgb, by pixel
-    std::vector<float> widths_px;          ///< of the filter for the first light
-};
-
 /// Probe, measure, sample, filter (docs/method.md). Stopped early, it filters what there is.
-FilteredLight run_filtered(SamplingLoop& loop, ShadowFilter& shadows,
-                           const shared::ShadowSettings& settings) {
+FilteredLight run_filtered(SamplingLoop& loop, SignalFilter& filter,
+                           const shared::FilterSettings& settings) {
     const auto probes = uint32_t(settings.probe_samples);
-    const uint64_t pixels = shadows.pixel_count();
+    const uint64_t pixels = filter.pixel_count();
     // How many samples there will be is known only after the probe; until then progress guesses.
     if (loop.run("probe", 0, probes, 4 * probes * pixels, true)) {
-        loop.add_pass("bandwidth", shadows.measure_bandwidth());
-        const std::vector<uint32_t> ends = shadows.read_sample_ends();
-        const uint32_t last = *std::max_element(ends.begin(), ends.end());
-        if (last > probes)
-            loop.run("adaptive", probes, last,
-                     std::accumulate(ends.begin(), ends.end(), uint64_t(0)));
+        loop.add_pass("bandwidth", filter.measure_bandwidth());
+        uint32_t last = 0;
+        uint64_t total = 0;
+        for (const SampleEnds& end : filter.read_sample_ends()) {
+            last = std::max(last, end.camera_rays);
+            total += end.camera_rays;
+        }
+        if (last > probes) loop.run("adaptive", probes, last, total);
     }
-    loop.add_pass("filter", shadows.filter());
-    return {shadows.read_radiance(), shadows.read_widths_px()};
+    loop.add_pass("filter", filter.filter());
+    return filter.read_light();
 }
 
-/// Adds radiance by pixel to the sums over samples.
-void add_filtered_light(std::vector<shared::FilmPixel>& film,
-                        const std::vector<shared::float4>& radiance) {
-    for (std::size_t i = 0; i < radiance.size(); ++i) {
-        shared::float4& direct = film[i].direct;
-        direct.x += radiance[i].x * direct.w;
-        direct.y += radiance[i].y * direct.w;
-        direct.z += radiance[i].z * direct.w;
+/// Puts filtered light in the place of what was not filtered, in sums over samples.
+void replace_unfiltered(std::vector<shared::FilmPixel>& film, const FilteredLight& light) {
+    const auto replace = [](shared::float4& sum, const shared::float4* before,
+                            const shared::float4& after, float samples) {
+        sum.x += after.x * samples - (before[0].x + before[1].x);
+        sum.y += after.y * samples - (before[0].y + before[1].y);
+        sum.z += after.z * samples - (before[0].z + before[1].z);
+    };
+    for (std::size_t i = 0; i < light.guarded.size(); ++i) {
+        const float samples = film[i].direct.w;
+        replace(film[i].direct, light.unfiltered[i].direct, light.guarded[i].direct, samples);
+        replace(film[i].indirect, light.unfiltered[i].indirect, light.guarded[i].indirect, samples);
     }
 }
 
@@ -126,17 +128,18 @@ Frame render(const Scene& scene, const RenderOptions& options) {
 
     Frame frame;
     frame.stats.device = device.info();
-    const Plan plan = make_plan(scene, options.method);
+    const Plan plan = make_plan(scene, options.method, settings.bounces);
     PathTracer tracer(device, scene, settings, plan, frame.stats);
-    std::optional<ShadowFilter> shadows;
-    if (plan.shadow_lights > 0)
-        shadows.emplace(device, tracer, plan, settings.crop, make_shadow_settings(scene, options),
-                        settings.kernel_dir, frame.stats);
+    std::optional<SignalFilter> filter;
+    const shared::FilterSettings filter_settings = make_filter_settings(scene, options);
+    if (plan.signals > 0)
+        filter.emplace(device, tracer, plan, settings.crop, filter_settings, settings.kernel_dir,
+                       frame.stats);
     SamplingLoop loop(options, tracer, frame.stats);
     FilteredLight filtered;
     try {
-        if (shadows) {
-            filtered = run_filtered(loop, *shadows, make_shadow_settings(scene, options));
+        if (filter) {
+            filtered = run_filtered(loop, *filter, filter_settings);
         } else {
             const uint32_t samples = sample_count(scene, options);
             loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
@@ -149,10 +152,11 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     }
     frame.stats.render_s = loop.elapsed_s();
     std::vector<shared::FilmPixel> film = tracer.read_film();
-    add_filtered_light(film, filtered.radiance);
+    const std::vector<NamedChannel> layers = filter_layers(filtered, film);
+    replace_unfiltered(film, filtered);
     count_film(film, settings, frame.stats);
     frame.image = film_to_image(film, scene.film, settings.crop);
-    if (shadows) add_channel(frame.image, "width.direct", filtered.widths_px, settings.crop);
+    add_channels(frame.image, layers, settings.crop);
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

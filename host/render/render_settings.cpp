@@ -73,6 +73,7 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     const bool open_ended = options.time_limit_s && !options.samples_per_pixel;
     settings.log2_samples =
         open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
+    if (options.method == Method::aaf) settings.log2_samples = WEDGE_DOUBLING;
     settings.strata = open_ended ? kOpenEndedStrata : int(samples);
     settings.local_size = options.local_size;
     settings.kernel_dir = options.kernel_dir;

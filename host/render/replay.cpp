@@ -58,8 +58,9 @@ std::string replay_pixel(const Scene& scene, const RenderOptions& options, int x
                         samples, kMaxReplaySamples));
     device::Device device(options.device);
     RenderStats stats;
-    rendering::PathTracer tracer(device, scene, settings, rendering::make_plan(scene, Method::mc),
-                                 stats, rendering::Recording::on);
+    rendering::PathTracer tracer(device, scene, settings,
+                                 rendering::make_plan(scene, Method::mc, settings.bounces), stats,
+                                 rendering::Recording::on);
     const std::vector<PathVertex> record = tracer.record_samples(options.sample_offset, samples);
 
     std::string out = fmt::format("pixel {},{}, seed {}, {} samples from {}\n", x, y, options.seed,

@@ -57,6 +57,24 @@ __kernel void sample_light_points(WEDGE_SCENE_PARAMS, float4 from, uint seed, ui
     out[id] = (float4)(light.position, light.pdf);
 }
 
+/* in: z_min, z_max, band, pixel; settings: mu, alpha, share. out: filter sigma, samples */
+__kernel void eval_indirect_bandwidth(__global const float4* in, float4 settings, uint count,
+                                      __global float2* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const float4 p = in[id];
+    out[id] = (float2)(indirect_filter_sigma(p.x, p.z, p.w, settings.x, settings.y),
+                       indirect_sample_count(p.x, p.y, p.z, settings.z, p.w, settings.x, settings.y));
+}
+
+/* out: Omega_h and share of the hemisphere of lobes with exponents `in`, for WEDGE_MODEL_* `model` */
+__kernel void eval_lobe_band(__global const float4* in, int model, uint count,
+                             __global float2* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    out[id] = (float2)(lobe_band(model, in[id].x), lobe_share(in[id].x));
+}
+
 /* in: s_min, s_max, light sigma, pixel; settings: mu, alpha, k. out: filter sigma, samples */
 __kernel void eval_shadow_bandwidth(__global const float4* in, float4 settings, uint count,
                                     __global float2* out) {

@@ -59,4 +59,17 @@ std::vector<float2> SamplingKernels::shadow_bandwidth(const std::vector<float4>&
                        uint32_t(in.size()));
 }
 
+std::vector<float2> SamplingKernels::indirect_bandwidth(const std::vector<float4>& in,
+                                                        float4 settings) {
+    const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "depths");
+    return run<float2>("eval_indirect_bandwidth", uint32_t(in.size()), buffer, settings,
+                       uint32_t(in.size()));
+}
+
+std::vector<float2> SamplingKernels::lobe_bands(const std::vector<float4>& in, int model) {
+    const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "lobes");
+    return run<float2>("eval_lobe_band", uint32_t(in.size()), buffer, cl_int(model),
+                       uint32_t(in.size()));
+}
+
 }  // namespace wedge::test

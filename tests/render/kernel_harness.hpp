@@ -36,6 +36,10 @@ class SamplingKernels {
     /// kernels/lib/bandwidth.clh; `in`: s_min, s_max, light sigma, pixel; `settings`: mu, alpha, k.
     /// Filter width and sample count.
     std::vector<float2> shadow_bandwidth(const std::vector<float4>& in, float4 settings);
+    /// The same of indirect light; `in`: z_min, z_max, band, pixel; `settings`: mu, alpha, share.
+    std::vector<float2> indirect_bandwidth(const std::vector<float4>& in, float4 settings);
+    /// Band limit of lobes of exponents in[i].x and their share of the hemisphere.
+    std::vector<float2> lobe_bands(const std::vector<float4>& in, int model);
 
   private:
     template <typename T, typename... Args>

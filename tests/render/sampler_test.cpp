@@ -42,6 +42,25 @@ TEST_CASE("sobol_prefixes_of_a_pixel_are_nets") {
             CHECK(is_net(kernels.points(WEDGE_SAMPLER_SOBOL, 9, 10, 77, first, 2, 1u << m), m));
 }
 
+TEST_CASE("doubling_stretches_are_nets") {
+    SamplingKernels kernels;
+    const auto stretch = [&](uint32_t pixel, uint32_t first, uint32_t count) {
+        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, WEDGE_DOUBLING, pixel, first, 4, count);
+    };
+    for (int m : {3, 4, 5, 7}) {
+        CHECK(is_net(stretch(77, 1u << m, 1u << m), m));
+        std::vector<float2> all;  // with the neighbours, too
+        for (uint32_t i = 0; i < 16; ++i) {
+            const auto points = stretch(48 + i, 1u << m, 1u << m);
+            all.insert(all.end(), points.begin(), points.end());
+        }
+        CHECK(is_net(all, m + 4));
+    }
+    CHECK(is_net(stretch(77, 0, 8), 3));
+    // Stretches are scrambled independently: together, the first two are no net.
+    CHECK_FALSE(is_net(stretch(77, 0, 16), 4));
+}
+
 TEST_CASE("sobol_points_of_neighbouring_pixels_are_a_net_together") {
     SamplingKernels kernels;
     for (int m : {2, 4}) {             // 4 and 16 samples a pixel

@@ -18,6 +18,8 @@ WEDGE_ASSERT_SIZE(CameraRays, 64);
 #define WEDGE_SAMPLER_SOBOL 1
 #define WEDGE_SAMPLER_STRATIFIED 2
 
+#define WEDGE_DOUBLING (-1) /* kernels/lib/random.clh */
+
 typedef struct FrameParams {
     CameraRays camera;
     float4 background; /* rgb radiance */
@@ -25,7 +27,7 @@ typedef struct FrameParams {
     int crop_x, crop_y, crop_width, crop_height;
     uint seed;
     int sampler;
-    int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence */
+    int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence, or WEDGE_DOUBLING */
     int bounces;
     int search_lights; /* 1: there is light that sampling finds badly or not at all: background,
                           meshes */
@@ -36,12 +38,12 @@ WEDGE_ASSERT_SIZE(FrameParams, 128);
 /* Sums over a pixel's samples, owned by one work-item. */
 typedef struct FilmPixel {
     float4 emission; /* rgb: light seen directly, w: samples that hit anything */
-    float4 direct;   /* rgb, w: samples */
+    float4 direct;   /* rgb, w: samples of all but `emission` */
     float4 indirect; /* rgb, w: rays traced */
     float4 square;   /* rgb: sum of the squared total radiance, w: non-finite samples, dropped */
     float4 albedo;   /* rgb: kd + ks at the first hit, w: distance along the view axis */
-    float4 normal;   /* xyz: shading normal at the first hit */
-    float4 position; /* xyz: first hit */
+    float4 normal;   /* xyz: shading normal at the first hit, w: camera rays */
+    float4 position; /* xyz: first hit, w: samples of `emission` */
 } FilmPixel;
 WEDGE_ASSERT_SIZE(FilmPixel, 112);
 

@@ -1,0 +1,217 @@
+#include "host/render/signal_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/base/stopwatch.hpp"
+#include "host/device/program.hpp"
+
+namespace wedge::rendering {
+namespace {
+
+constexpr int kProbeSamples = 16;       // thesis, section 4.5; for shadows it takes 9
+constexpr float kAlphaDirect = 1;       // section 3.6
+constexpr float kAlphaIndirect = 0.3f;  // section 4.5
+constexpr float kGaussian = 3;          // k of eq. 3.13
+constexpr float kUniform = 4.5;        // flat lights have side lobes; the thesis takes mu = 3 for 2
+constexpr float kSamplesPerMu = 100;   // the cap
+constexpr int kCameraRaysAtEdges = 4;  // for each sample: they cost less than paths
+constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
+
+constexpr cl_uint kScaleArg = 8;  // of filter_x and filter_y
+constexpr cl_uint kLightArg = 4;  // of filter_combine
+
+template <typename... Args>
+void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
+    cl_uint index = 0;
+    (kernel.setArg(index++, args), ...);
+}
+
+template <typename T>
+std::vector<T> read(device::Device& device, const cl::Buffer& buffer, uint64_t count) {
+    std::vector<T> items(count);
+    device.download(buffer, items.data(), count * sizeof(T));
+    return items;
+}
+
+}  // namespace
+
+shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options) {
+    shared::FilterSettings s{};
+    s.mu = options.mu;
+    s.alpha_direct = kAlphaDirect;
+    s.alpha_indirect = kAlphaIndirect;
+    s.k_gaussian = kGaussian;
+    s.k_uniform = kUniform;
+    s.max_samples =
+        options.samples_per_pixel.value_or(int(std::lround(kSamplesPerMu * std::max(1.0f, s.mu))));
+    s.probe_samples = std::min(kProbeSamples, s.max_samples);
+    s.max_radius_px =
+        int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
+    s.camera_rays_at_edges = kCameraRaysAtEdges;
+    s.pixel_angle = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(scene.film.height);
+    return s;
+}
+
+SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Plan& plan,
+                           const Rect& crop, const shared::FilterSettings& settings,
+                           const std::string& kernel_dir, RenderStats& stats)
+    : device_(device),
+      width_(uint32_t(crop.width)),
+      height_(uint32_t(crop.height)),
+      lights_(uint32_t(plan.shadow_lights)),
+      signals_(uint32_t(plan.signals)),
+      light_list_(tracer.lights()),
+      params_(tracer.params()),
+      film_(tracer.film()) {
+    allocate(settings);
+    compile(plan, kernel_dir, stats);
+    const cl::Buffer kept[] = {settings_,  surface_sums_, sums_,       distances_,
+                               reflected_, unfiltered_,   sample_ends_};
+    tracer.attach_signals(kept);
+    stats.device_bytes = device.allocated_bytes();
+}
+
+void SignalFilter::allocate(const shared::FilterSettings& settings) {
+    const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
+    const uint64_t entries = surfaces * signals_;
+    const auto upload = [&](const auto& items, const char* what) {
+        return device_.upload_bytes(items.data(), items.size() * sizeof(items[0]), what,
+                                    CL_MEM_READ_WRITE);
+    };
+    settings_ = device_.upload_bytes(&settings, sizeof(settings), "filter settings");
+    const auto probes = cl_uint(settings.probe_samples);
+    sample_ends_ = upload(std::vector<SampleEnds>(pixels, {probes, probes}), "sample counts");
+    surface_sums_ = upload(std::vector<shared::SurfaceSum>(surfaces), "surfaces of pixels");
+    sums_ = upload(std::vector<shared::float4>(2 * entries), "signals");
+    const shared::DistanceRange nothing{INFINITY, 0, 0, 0};
+    distances_ = upload(std::vector<shared::DistanceRange>(entries, nothing), "distances");
+    reflected_ = upload(std::vector<shared::float4>(surfaces * lights_), "unshadowed light");
+    unfiltered_ = upload(std::vector<shared::HalfLight>(pixels), "unfiltered light");
+    surfaces_ = device_.allocate(surfaces * sizeof(shared::FilterSurface), "places of surfaces");
+    found_ = device_.allocate(entries * sizeof(cl_float2), "slopes and depths");
+    sigmas_ = device_.allocate(entries * sizeof(float), "filter widths");
+    means_ = device_.allocate(entries * sizeof(cl_float8), "means of signals");
+    filtered_ = device_.allocate(entries * sizeof(cl_float8), "half-filtered signals");
+    for (cl::Buffer* light : {&full_, &half_width_})
+        *light = device_.allocate(pixels * sizeof(shared::HalfLight), "filtered light");
+    for (cl::Buffer* errors : {&errors_, &smoothed_})
+        *errors = device_.allocate(pixels * sizeof(shared::FilterErrors), "errors of filters");
+    guarded_ = device_.allocate(pixels * sizeof(shared::GuardedPixel), "guarded light");
+}
+
+void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats) {
+    Stopwatch watch;
+    const auto programs = device::build_programs(device_, plan.filter_programs, kernel_dir);
+    surfaces_kernel_ = programs[0].kernel("filter_surfaces");
+    distances_kernel_ = programs[0].kernel("filter_distances");
+    bandwidth_kernel_ = programs[0].kernel("filter_bandwidth");
+    means_kernel_ = programs[0].kernel("filter_means");
+    filter_x_ = programs[0].kernel("filter_x");
+    filter_y_ = programs[0].kernel("filter_y");
+    combine_ = programs[0].kernel("filter_combine");
+    guard_errors_ = programs[1].kernel("guard_errors");
+    smooth_x_ = programs[1].kernel("guard_smooth_x");
+    smooth_y_ = programs[1].kernel("guard_smooth_y");
+    choose_ = programs[1].kernel("guard_choose");
+    for (const device::Program& program : programs)
+        (program.from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
+    // Some drivers compile at the first launch: empty ones keep that out of the rendering time.
+    set_args(0, 0);
+    measure_bandwidth();
+    filter();
+    set_args(width_, height_);
+    stats.compile_s += watch.lap();
+}
+
+void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
+    const auto width = cl_int(film_width), height = cl_int(film_height);
+    const auto pixels = cl_uint(film_width * film_height), surfaces = pixels * WEDGE_SURFACES;
+    set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, surfaces_, surfaces);
+    set_kernel_args(distances_kernel_, distances_, found_, surfaces * signals_);
+    set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, surfaces_,
+                    found_, sigmas_, sample_ends_, sums_, unfiltered_, width, height);
+    set_kernel_args(means_kernel_, unfiltered_, sums_, means_, surfaces * signals_);
+    set_kernel_args(filter_x_, settings_, light_list_, surfaces_, sigmas_, means_, filtered_, width,
+                    height);
+    set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, means_, width,
+                    height);
+    set_kernel_args(combine_, film_, surface_sums_, reflected_, means_, full_, pixels);
+    set_kernel_args(guard_errors_, unfiltered_, full_, half_width_, errors_, pixels);
+    set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
+    set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
+    set_kernel_args(choose_, unfiltered_, full_, half_width_, errors_, guarded_, pixels);
+}
+
+double SignalFilter::run(std::span<const Launch> launches) {
+    std::vector<cl::Event> events;
+    for (const Launch& launch : launches)
+        events.push_back(device_.launch(launch.kernel, launch.count));
+    double seconds = 0;
+    for (const cl::Event& event : events) seconds += device::device_seconds(event);
+    return seconds;
+}
+
+double SignalFilter::measure_bandwidth() {
+    const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
+    const Launch launches[] = {{surfaces_kernel_, surfaces},
+                               {distances_kernel_, surfaces * signals_},
+                               {bandwidth_kernel_, pixels}};
+    return run(launches);
+}
+
+double SignalFilter::filter_with_width(float scale, const cl::Buffer& light) {
+    const uint64_t pixels = pixel_count();
+    filter_x_.setArg(kScaleArg, scale);
+    filter_y_.setArg(kScaleArg, scale);
+    combine_.setArg(kLightArg, light);
+    const Launch launches[] = {{means_kernel_, pixels * WEDGE_SURFACES * signals_},
+                               {filter_x_, pixels},
+                               {filter_y_, pixels},
+                               {combine_, pixels}};
+    return run(launches);
+}
+
+double SignalFilter::filter() {
+    const uint64_t pixels = pixel_count();
+    // Where the samples met the scene is better known now than after the probe.
+    const Launch places[] = {{surfaces_kernel_, pixels * WEDGE_SURFACES}};
+    const Launch guard[] = {
+        {guard_errors_, pixels}, {smooth_x_, pixels}, {smooth_y_, pixels}, {choose_, pixels}};
+    return run(places) + filter_with_width(1, full_) + filter_with_width(0.5f, half_width_) +
+           run(guard);
+}
+
+std::vector<SampleEnds> SignalFilter::read_sample_ends() {
+    return read<SampleEnds>(device_, sample_ends_, pixel_count());
+}
+
+FilteredLight SignalFilter::read_light() {
+    FilteredLight light;
+    light.guarded = read<shared::GuardedPixel>(device_, guarded_, pixel_count());
+    light.unfiltered = read<shared::HalfLight>(device_, unfiltered_, pixel_count());
+    if (lights_ > 0) light.direct = read_layers(0);
+    if (signals_ > lights_) light.indirect = read_layers(lights_);
+    return light;
+}
+
+SignalLayers SignalFilter::read_layers(uint32_t signal) {
+    const std::size_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
+    const auto sigmas = read<float>(device_, sigmas_, surfaces * signals_);
+    const auto places = read<shared::FilterSurface>(device_, surfaces_, surfaces);
+    const auto distances = read<shared::DistanceRange>(device_, distances_, surfaces * signals_);
+    SignalLayers layers;
+    for (std::vector<float>* layer : {&layers.width_px, &layers.nearest, &layers.farthest})
+        layer->assign(pixels, 0.0f);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::size_t first = i * WEDGE_SURFACES, entry = first * signals_ + signal;
+        if (places[first].normal.w > 0) layers.width_px[i] = sigmas[entry] / places[first].normal.w;
+        if (distances[entry].farthest > 0) {
+            layers.nearest[i] = distances[entry].nearest;
+            layers.farthest[i] = distances[entry].farthest;
+        }
+    }
+    return layers;
+}
+
+}  // namespace wedge::rendering

@@ -1,0 +1,75 @@
+// The passes of axis-aligned filtering, around the path tracer.
+#pragma once
+
+#include <functional>
+
+#include "host/render/path_tracer.hpp"
+#include "wedge/shared/filter.h"
+
+namespace wedge::rendering {
+
+/// Settings of the thesis (docs/method.md), one set for all scenes.
+shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options);
+
+/// What is known of a signal, by pixel; empty: there is no such signal.
+struct SignalLayers {
+    std::vector<float> width_px;           ///< standard deviation of the filter, as computed
+    std::vector<float> nearest, farthest;  ///< distances the probe found, world units; 0: none
+};
+
+/// By pixel.
+struct FilteredLight {
+    std::vector<shared::GuardedPixel> guarded;  ///< what takes the place of `unfiltered`
+    std::vector<shared::HalfLight> unfiltered;  ///< sums
+    SignalLayers direct;                        ///< of the most powerful light
+    SignalLayers indirect;                      ///< diffuse
+};
+
+/// Samples a pixel is to be brought to.
+struct SampleEnds {
+    uint32_t paths, camera_rays;
+};
+
+class SignalFilter {
+  public:
+    /// Allocates, compiles, and attaches itself to `tracer`.
+    SignalFilter(device::Device& device, PathTracer& tracer, const Plan& plan, const Rect& crop,
+                 const shared::FilterSettings& settings, const std::string& kernel_dir,
+                 RenderStats& stats);
+
+    uint64_t pixel_count() const { return uint64_t(width_) * height_; }
+
+    /// From the probe samples to widths and counts. Returns seconds on the device.
+    double measure_bandwidth();
+    /// From all samples to filtered light. Returns seconds on the device.
+    double filter();
+
+    std::vector<SampleEnds> read_sample_ends();
+    /// After filter().
+    FilteredLight read_light();
+
+  private:
+    /// A kernel and its number of work-items.
+    struct Launch {
+        const cl::Kernel& kernel;
+        uint64_t count;
+    };
+
+    void allocate(const shared::FilterSettings& settings);
+    double filter_with_width(float scale, const cl::Buffer& light);
+    double run(std::span<const Launch> launches);
+    void compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats);
+    void set_args(uint32_t film_width, uint32_t film_height);
+    SignalLayers read_layers(uint32_t signal);
+
+    device::Device& device_;
+    uint32_t width_, height_, lights_, signals_;
+    cl::Buffer light_list_, params_, film_;
+    cl::Buffer settings_, sample_ends_, surface_sums_, sums_, distances_, reflected_, unfiltered_;
+    cl::Buffer surfaces_, found_, sigmas_, means_, filtered_, full_, half_width_, errors_,
+        smoothed_, guarded_;
+    cl::Kernel surfaces_kernel_, distances_kernel_, bandwidth_kernel_, means_kernel_, filter_x_,
+        filter_y_, combine_, guard_errors_, smooth_x_, smooth_y_, choose_;
+};
+
+}  // namespace wedge::rendering

@@ -1,0 +1,87 @@
+/* What axis-aligned filtering keeps of a pixel's samples.
+
+   A pixel may show more than one surface; its samples are told apart, so that each surface is filtered with its
+   like. Light is kept as signals, which are smooth along a surface where its colour need not be: irradiance by
+   each filtered light, with and without shadow, then irradiance from the hemisphere, then what the lobe
+   reflects of the hemisphere. Samples are summed in two halves, whose difference tells the error.
+
+   Arrays: surfaces at pixel * WEDGE_SURFACES + surface; signals at that * signals + signal; sums of signals at
+   that * 2 + half. */
+#ifndef WEDGE_SHARED_FILTER_H
+#define WEDGE_SHARED_FILTER_H
+
+#include "wedge/shared/portable.h"
+
+WEDGE_SHARED_BEGIN
+
+/* Most lights whose shadows are filtered; the others are left to Monte Carlo. */
+#define WEDGE_MAX_SHADOW_LIGHTS 4
+#define WEDGE_SURFACES 2
+
+/* Sums over the samples of a pixel that met the same surface. */
+typedef struct SurfaceSum {
+    float4 position; /* xyz, w: samples */
+    float4 normal;   /* xyz, w: exponents of the lobe */
+    float4 diffuse;  /* rgb: kd, w: band limits of the lobe, Omega_h */
+    float4 specular; /* rgb: ks */
+} SurfaceSum;
+WEDGE_ASSERT_SIZE(SurfaceSum, 64);
+
+/* What probe samples tell of the distances that decide a signal's frequencies. Of a light: from it to
+   occluders, along its normal. Of the hemisphere: from the surface to what it sees. World units. */
+typedef struct DistanceRange {
+    float nearest;  /* +inf: nothing found */
+    float farthest; /* 0: nothing found */
+    float receiver; /* lights: from light to receiver, summed over probe samples */
+    float samples;  /* probe samples */
+} DistanceRange;
+WEDGE_ASSERT_SIZE(DistanceRange, 16);
+
+/* Radiance of a pixel that filters are for, by halves of its samples: before the filter, summed over samples,
+   or after it. */
+typedef struct HalfLight {
+    float4 direct[2];   /* rgb, w: samples (sums only) */
+    float4 indirect[2]; /* rgb */
+} HalfLight;
+WEDGE_ASSERT_SIZE(HalfLight, 64);
+
+/* Estimated mean square errors of the ways there are to filter a pixel. */
+#define WEDGE_FILTER_FULL 0
+#define WEDGE_FILTER_HALF 1 /* half the width */
+#define WEDGE_FILTER_NONE 2
+typedef struct FilterErrors {
+    float4 direct, indirect; /* x, y, z: by the three, w: square of x */
+} FilterErrors;
+WEDGE_ASSERT_SIZE(FilterErrors, 32);
+
+/* What the guard made of a pixel. */
+typedef struct GuardedPixel {
+    float4 direct;   /* rgb, w: width of the filter that was taken, as a share of the full one */
+    float4 indirect; /* rgb, w: the same */
+    float4 error;    /* x, y: estimated mean square error of the two over rgb */
+} GuardedPixel;
+WEDGE_ASSERT_SIZE(GuardedPixel, 48);
+
+/* Mean place of a surface in a pixel. */
+typedef struct FilterSurface {
+    float4 position; /* xyz, w: world length of a pixel seen face-on; 0: nothing there */
+    float4 normal;   /* xyz unit, w: the same length with foreshortening, sqrt(A_p) */
+} FilterSurface;
+WEDGE_ASSERT_SIZE(FilterSurface, 32);
+
+/* Settings of the method; the defaults are in host/render/signal_filter.cpp. */
+typedef struct FilterSettings {
+    float mu;                    /* bandwidth scale: larger is narrower filters and more samples */
+    float alpha_direct;          /* band limit of geometry as a share of the pixel's */
+    float alpha_indirect;
+    float k_gaussian, k_uniform; /* standard deviations that a light's profile is taken to be wide */
+    float pixel_angle;           /* world length of a pixel face-on, at distance 1 */
+    int probe_samples, max_samples;
+    int max_radius_px;           /* of a filter */
+    int camera_rays_at_edges;    /* for each sample */
+} FilterSettings;
+WEDGE_ASSERT_SIZE(FilterSettings, 40);
+
+WEDGE_SHARED_END
+
+#endif

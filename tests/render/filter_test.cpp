@@ -1,0 +1,323 @@
+// Axis-aligned filtering: bandwidths as functions, and images.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "kernel_harness.hpp"
+#include "test_scenes.hpp"
+#include "wedge/shared/scene.h"
+
+namespace wedge::test {
+namespace {
+
+TEST_CASE("shadow_bandwidth_is_that_of_the_thesis") {
+    SamplingKernels kernels;
+    std::vector<float4> in;
+    for (float s_min : {0.01f, 0.3f, 2.0f, 50.0f})
+        for (float ratio : {1.0f, 1.7f, 20.0f})
+            for (float sigma : {1e-4f, 0.3f, 1e4f})
+                for (float pixel : {1e-6f, 0.02f, 3.0f})
+                    in.push_back({s_min, s_min * ratio, sigma, pixel});
+    for (float mu : {0.5f, 2.0f, 8.0f}) {
+        const double alpha = 1, k = 3;
+        const auto found = kernels.shadow_bandwidth(in, {mu, float(alpha), float(k), 0});
+        for (std::size_t i = 0; i < in.size(); ++i) {
+            const double s_min = in[i].x, s_max = in[i].y, sigma = in[i].z, d = in[i].w;
+            // Eqs. 3.13 and 3.21, with A_p = d^2 and A_l = (2 sigma)^2.
+            const double width = std::max(sigma * s_min, d * (1 + s_min) / alpha) / (k * mu);
+            const double area_p = d * d, area_l = 4 * sigma * sigma;
+            const double n =
+                4 * std::pow(1 + mu * s_max / s_min, 2) *
+                std::pow(mu * 2 / s_min * std::sqrt(area_p / area_l) + alpha / (1 + s_min), 2);
+            CHECK(found[i].x == doctest::Approx(width).epsilon(1e-5));
+            CHECK(found[i].y == doctest::Approx(n).epsilon(1e-4));
+        }
+    }
+}
+
+TEST_CASE("shadow_bandwidth_has_the_limits_of_the_theory") {
+    SamplingKernels kernels;
+    // mu without bound: no filter. A point light: shadows as sharp as pixels, filtered no wider.
+    CHECK(kernels.shadow_bandwidth({{1, 1, 0.5f, 0.01f}}, {1e6f, 1, 3, 0})[0].x < 1e-6f);
+    CHECK(kernels.shadow_bandwidth({{1, 1, 1e-9f, 0.01f}}, {1, 1, 3, 0})[0].x ==
+          doctest::Approx(0.02 / 3));
+    // One occluder depth and small pixels: 4 (1 + mu)^2 / (1 + s)^2 samples.
+    CHECK(kernels.shadow_bandwidth({{1, 1, 1, 1e-9f}}, {2, 1, 3, 0})[0].y == doctest::Approx(9));
+}
+
+TEST_CASE("indirect_bandwidth_is_that_of_the_thesis") {
+    SamplingKernels kernels;
+    std::vector<float4> in;
+    for (float z_min : {1e-3f, 0.2f, 30.0f})
+        for (float ratio : {1.0f, 3.0f, 50.0f})
+            for (float band : {2.8f, 5.28f})
+                for (float pixel : {1e-5f, 0.01f, 2.0f})
+                    in.push_back({z_min, z_min * ratio, band, pixel});
+    for (float mu : {0.5f, 0.9f, 4.0f}) {
+        const double alpha = 0.3, share = 0.4;
+        const auto found = kernels.indirect_bandwidth(in, {mu, float(alpha), float(share), 0});
+        for (std::size_t i = 0; i < in.size(); ++i) {
+            const double z_min = in[i].x, z_max = in[i].y, band = in[i].z, d = in[i].w;
+            // Eqs. 4.15 and 4.18; the width as 1 / (2 Omega_x) (docs/method.md).
+            const double omega_x = mu * std::min(band / z_min, alpha / d);
+            const double n = share * std::pow(mu * band * d / z_min + alpha, 2) * band * band *
+                             std::pow(1 + mu * z_max / z_min, 2);
+            CHECK(found[i].x == doctest::Approx(0.5 / omega_x).epsilon(1e-5));
+            CHECK(found[i].y == doctest::Approx(n).epsilon(1e-4));
+        }
+    }
+}
+
+TEST_CASE("indirect_bandwidth_has_the_limits_of_the_theory") {
+    SamplingKernels kernels;
+    // mu without bound: no filter. A reflector at one depth: replicas (1 + mu) apart.
+    CHECK(kernels.indirect_bandwidth({{1, 2, 2.8f, 0.01f}}, {1e6f, 0.3f, 0.4f, 0})[0].x < 1e-5f);
+    CHECK(kernels.indirect_bandwidth({{1, 1, 2, 1e-9f}}, {1, 0.5f, 1, 0})[0].y ==
+          doctest::Approx(0.25 * 4 * 4));
+    // The papers' numbers: Blinn-Phong 20 has band 5.28 and a share of 0.11 to 0.12.
+    const auto lobe = kernels.lobe_bands({{20, 0, 0, 0}}, WEDGE_MODEL_BLINN_PHONG)[0];
+    CHECK(lobe.x == doctest::Approx(3.6 + 0.084 * 20));
+    CHECK(lobe.y == doctest::Approx(std::acos(std::pow(std::sqrt(0.5), 0.05)) / (kPi / 2)));
+    CHECK(kernels.lobe_bands({{20, 0, 0, 0}}, WEDGE_MODEL_PHONG)[0].x == doctest::Approx(7.27));
+}
+
+/// A square that floats between a large lamp and the ground: wide penumbrae.
+Scene make_penumbra(LightProfile profile) {
+    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0),
+                              make_quad({-0.5f, 1, -0.5f}, {0, 0, 1}, {1, 0, 0}, 0)},
+                             {lambert(0.7f)});
+    scene.film = {64, 48};
+    scene.camera = {.position = {0, 2.5f, 5}, .target = {0, 0, 0}, .vertical_fov_rad = 0.7f};
+    scene.rect_lights = {{.center = {0.3f, 3, 0},
+                          .edge_u = {1, 0, 0},
+                          .edge_v = {0, 0, 1},
+                          .radiance = Vec3(8),
+                          .profile = profile,
+                          .sigma = 0.3f}};
+    return scene;
+}
+
+RenderOptions filtered(float mu, uint32_t seed = 0) {
+    RenderOptions options;
+    options.bounces = 0;
+    options.method = Method::aaf;
+    options.mu = mu;
+    options.seed = seed;
+    return options;
+}
+
+double channel_rmse(const Image& a, const Image& b, const char* channel) {
+    const std::vector<double> x = channel_values(a, channel), y = channel_values(b, channel);
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(x[i] - y[i], 2);
+    return std::sqrt(sum / double(x.size()));
+}
+
+double rmse(const Image& a, const Image& b) {
+    return channel_rmse(a, b, "G");
+}
+
+TEST_CASE("light_without_occluders_is_not_touched") {
+    for (LightProfile profile : {LightProfile::uniform, LightProfile::gaussian}) {
+        Scene scene = make_penumbra(profile);
+        scene.instances.pop_back();
+        const Image truth = render(scene, quick(512, 0, Sampler::sobol, 9)).image;
+        const Image image = render(scene, filtered(1)).image;
+        CHECK(channel_mean(image, "G") == doctest::Approx(channel_mean(truth, "G")).epsilon(1e-3));
+        // Visibility is exactly one; what is left is the noise of the unshadowed light.
+        CHECK(rmse(image, truth) < 0.02 * channel_mean(truth, "G"));
+    }
+}
+
+TEST_CASE("filtered_shadows_converge_with_mu") {
+    for (LightProfile profile : {LightProfile::uniform, LightProfile::gaussian}) {
+        const Scene scene = make_penumbra(profile);
+        const Image truth = render(scene, quick(2048, 0, Sampler::sobol, 9)).image;
+        double previous = 1e9;
+        for (float mu : {0.25f, 1.0f, 4.0f}) {
+            const double error = rmse(render(scene, filtered(mu)).image, truth);
+            CAPTURE(mu);
+            CHECK(error < 0.8 * previous);
+            previous = error;
+        }
+        CHECK(previous < 0.02 * channel_mean(truth, "G"));
+    }
+}
+
+TEST_CASE("filtered_shadows_need_fewer_samples") {
+    const Scene scene = make_penumbra(LightProfile::gaussian);
+    const Image truth = render(scene, quick(4096, 0, Sampler::sobol, 9)).image;
+    const Frame frame = render(scene, filtered(1));
+    const double samples = channel_mean(frame.image, "spp");
+    const int same = int(std::ceil(samples));
+    const double plain = rmse(render(scene, quick(same, 0)).image, truth);
+    CHECK(rmse(frame.image, truth) < 0.8 * plain);
+}
+
+TEST_CASE("other_lights_gloss_and_bounces_stay_right_beside_filtered_shadows") {
+    Scene scene = make_room(20);
+    scene.film = {40, 32};
+    scene.point_lights = {{.position = {0.5f, 0.8f, 0.3f}, .intensity = {0.3f, 0.5f, 0.8f}}};
+    scene.materials[1].emission = {0.5f, 0.1f, 0.1f};
+    const Image truth = render(scene, quick(1024, 1, Sampler::sobol, 9)).image;
+    RenderOptions options = filtered(4);
+    options.bounces = 1;
+    const Image image = render(scene, options).image;
+    for (const char* channel : {"direct.R", "direct.B", "indirect.G", "emission.G"})
+        CHECK(channel_mean(image, channel) ==
+              doctest::Approx(channel_mean(truth, channel)).epsilon(0.01));
+}
+
+TEST_CASE("a_large_lamp_over_gloss_is_counted_once") {
+    // So near that rays which happen to meet the lamp matter as much as those sent to it.
+    Material shiny = lambert(0.4f);
+    shiny.specular = Vec3(0.4f);
+    shiny.exponent = 20;
+    shiny.model = SpecularModel::phong;
+    Scene scene = make_scene({make_quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, 0)}, {shiny});
+    scene.film = {32, 24};
+    scene.camera = {.position = {0, 0.3f, 1.5f}, .target = {0, 0, 0}, .vertical_fov_rad = 0.5f};
+    scene.rect_lights = {{.center = {0, 0.7f, 0}, .edge_u = {2, 0, 0}, .edge_v = {0, 0, 2}}};
+    const Image truth = render(scene, quick(1024, 0, Sampler::sobol, 9)).image;
+    const Image image = render(scene, filtered(4)).image;
+    CHECK(channel_mean(image, "direct.G") ==
+          doctest::Approx(channel_mean(truth, "direct.G")).epsilon(0.01));
+}
+
+TEST_CASE("filtered_indirect_light_converges_with_mu") {
+    for (float gloss : {0.0f, 20.0f}) {
+        Scene scene = make_room(gloss);
+        scene.film = {32, 24};
+        const Image truth = render(scene, quick(2048, 2, Sampler::sobol, 9)).image;
+        double previous = 1e9;
+        for (float mu : {0.25f, 1.0f, 4.0f}) {
+            RenderOptions options = filtered(mu);
+            options.bounces = 2;
+            const double error = channel_rmse(render(scene, options).image, truth, "indirect.G");
+            CAPTURE(gloss);
+            CAPTURE(mu);
+            CHECK(error < 0.9 * previous);
+            previous = error;
+        }
+        CHECK(previous < 0.04 * channel_mean(truth, "indirect.G"));
+    }
+}
+
+TEST_CASE("filtered_indirect_light_needs_a_third_of_the_samples") {
+    Scene scene = make_room(0);
+    scene.film = {64, 48};
+    const Image truth = render(scene, quick(2048, 1, Sampler::sobol, 9)).image;
+    RenderOptions options = filtered(1);
+    options.bounces = 1;
+    const Image image = render(scene, options).image;
+    const int threefold = int(3 * channel_mean(image, "spp"));
+    for (Sampler sampler : {Sampler::sobol, Sampler::stratified}) {
+        const Image plain = render(scene, quick(threefold, 1, sampler)).image;
+        CHECK(channel_rmse(image, truth, "indirect.G") < channel_rmse(plain, truth, "indirect.G"));
+    }
+}
+
+TEST_CASE("filters_keep_a_closed_enclosure_at_radiance_one") {
+    // Every wall shines 0.4 and reflects 0.6: radiance is 1 - 0.6^(bounces + 1) everywhere, borders
+    // and corners of the image too, whatever is filtered with what.
+    Material wall = lambert(0.6f);
+    wall.emission = Vec3(0.4f);
+    Scene scene = make_scene({make_box(Vec3(-1), Vec3(1), true, 0)}, {wall});
+    scene.film = {33, 21};
+    scene.camera = {
+        .position = {0, 0, 0.9f}, .target = {0.3f, -0.2f, -1}, .vertical_fov_rad = 1.4f};
+    RenderOptions options = filtered(0.5f);
+    options.bounces = 3;
+    const Image image = render(scene, options).image;
+    const double expected = 1 - std::pow(0.6, 5);
+    CHECK(channel_mean(image, "G") == doctest::Approx(expected).epsilon(2e-3));
+    for (double value : channel_values(image, "G"))
+        CHECK(value == doctest::Approx(expected).epsilon(0.05));
+}
+
+TEST_CASE("light_of_the_background_is_filtered_without_bias") {
+    // A box on the ground under an even sky: ambient occlusion.
+    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0),
+                              make_box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, false, 0)},
+                             {lambert(0.8f)});
+    scene.film = {48, 36};
+    scene.camera = {.position = {1, 2, 4}, .target = {0, 0.3f, 0}, .vertical_fov_rad = 0.7f};
+    scene.background = Vec3(1);
+    const Image truth = render(scene, quick(2048, 0, Sampler::sobol, 9)).image;
+    const Frame frame = render(scene, filtered(1));
+    CHECK(channel_mean(frame.image, "G") ==
+          doctest::Approx(channel_mean(truth, "G")).epsilon(3e-3));
+    const int same = int(std::ceil(channel_mean(frame.image, "spp")));
+    const Image plain = render(scene, quick(same, 0)).image;
+    CHECK(rmse(frame.image, truth) < 0.6 * rmse(plain, truth));
+}
+
+TEST_CASE("the_guard_takes_back_filters_that_do_harm") {
+    // Wires much thinner than a pixel's filter, near the ground and under a large lamp: the probe
+    // sees few of them, and a filter as wide as it asks for wipes their shadows out.
+    std::vector<Mesh> meshes = {make_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 0)};
+    for (int i = -6; i <= 6; ++i)
+        meshes.push_back(make_box({0.15f * i, 0.02f, -1}, {0.15f * i + 0.02f, 0.04f, 1}, false, 0));
+    meshes.push_back(make_box({-2, 1.2f, -2}, {-0.4f, 1.25f, 2}, false, 0));
+    Scene scene = make_scene(meshes, {lambert(0.7f)});
+    scene.film = {64, 48};
+    scene.camera = {.position = {0, 2, 1.5f}, .target = {0, 0, 0}, .vertical_fov_rad = 0.8f};
+    scene.rect_lights = {{.center = {0, 3, 0}, .edge_u = {1.5f, 0, 0}, .edge_v = {0, 0, 1.5f}}};
+    const Image truth = render(scene, quick(2048, 0, Sampler::sobol, 9)).image;
+    for (float mu : {0.25f, 1.0f, 4.0f}) {
+        const Image image = render(scene, filtered(mu)).image;
+        const int same = int(std::ceil(channel_mean(image, "spp")));
+        CAPTURE(mu);
+        // Not 1: two halves of the samples are less evenly spread than the whole.
+        CHECK(rmse(image, truth) < 1.4 * rmse(render(scene, quick(same, 0)).image, truth));
+    }
+}
+
+TEST_CASE("the_error_layer_tells_the_error") {
+    Scene scene = make_room(0);
+    scene.film = {64, 48};
+    const Image truth = render(scene, quick(1024, 1, Sampler::sobol, 9)).image;
+    RenderOptions options = filtered(1);
+    options.bounces = 1;
+    const Image image = render(scene, options).image;
+    double told = 0;
+    for (double e : channel_values(image, "error")) told += e * e;
+    double found = 0;
+    for (const char* channel :
+         {"direct.R", "direct.G", "direct.B", "indirect.R", "indirect.G", "indirect.B"})
+        found += std::pow(channel_rmse(image, truth, channel), 2) / 3;
+    told = std::sqrt(told / (double(image.width) * image.height));
+    CHECK(told / std::sqrt(found) > 0.6);
+    CHECK(told / std::sqrt(found) < 1.7);
+}
+
+TEST_CASE("unfiltered_layer_is_the_plain_estimate") {
+    // Its mean over seeds is the truth, also where filters are wide: Welch's test over blocks would
+    // need many renders; the image's mean has hardly any variance.
+    Scene scene = make_room(20);
+    scene.film = {40, 32};
+    const Image truth = render(scene, quick(1024, 1, Sampler::sobol, 9)).image;
+    RenderOptions options = filtered(0.5f);
+    options.bounces = 1;
+    const Image image = render(scene, options).image;
+    for (const auto& [layer, channel] : {std::pair("unfiltered.R", "R"), {"unfiltered.B", "B"}})
+        CHECK(channel_mean(image, layer) ==
+              doctest::Approx(channel_mean(truth, channel)).epsilon(0.01));
+}
+
+TEST_CASE("filtered_images_do_not_depend_on_work_groups_or_tiles") {
+    const Scene scene = make_penumbra(LightProfile::uniform);
+    const Image reference = render(scene, filtered(1)).image;
+    for (uint32_t tile : {100u, 100000u}) {
+        RenderOptions options = filtered(1);
+        options.tile_pixels = tile;
+        options.local_size = 16;
+        const Image image = render(scene, options).image;
+        CHECK(std::memcmp(image.pixels.data(), reference.pixels.data(),
+                          image.pixels.size() * sizeof(float)) == 0);
+    }
+}
+
+}  // namespace
+}  // namespace wedge::test
