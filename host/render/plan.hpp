@@ -11,6 +11,7 @@ namespace wedge::rendering {
 struct Plan {
     bool specular = false;  ///< any visible material has a Phong or Blinn-Phong lobe
     bool textures = false;  ///< any visible material has an image
+    bool normal_maps = false;  ///< any visible material bends its normal by an image
     int shadow_lights = 0;  ///< rectangles whose shadows are filtered; 0: plain Monte Carlo
     device::ProgramRequest path_program;
     device::ProgramRequest shadow_program;  ///< if shadow_lights > 0
