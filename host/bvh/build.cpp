@@ -20,10 +20,16 @@ constexpr uint32_t kBalancedLevel = 16;
 // Subtrees up to this size are one task.
 constexpr uint32_t kTaskTriangles = 1 << 13;
 
-/// A subtree with indices of its own. Children that are pieces themselves are in `kids`.
+/// Refs of one block.
+struct Leaf {
+    uint32_t first = 0, count = 0;
+};
+
+/// A subtree with indices of its own. Children that are pieces themselves are in `kids`. Blocks are
+/// made when they have their place: they are most of the tree's memory.
 struct Piece {
     std::vector<shared::BvhNode> nodes;
-    std::vector<shared::TriangleBlock> blocks;
+    std::vector<Leaf> leaves;
     std::array<std::unique_ptr<Piece>, kWidth> kids;
     uint32_t depth = 0;
 };
@@ -49,7 +55,7 @@ void set_child_bounds(shared::BvhNode& node, int slot, const Box& box) {
     }
 }
 
-shared::TriangleBlock make_block(const Input& input, const Range& range) {
+shared::TriangleBlock make_block(const Input& input, const Leaf& range) {
     shared::TriangleBlock block{};
     std::fill_n(block.primitive, kLeafTriangles, WEDGE_NO_PRIMITIVE);
     for (uint32_t lane = 0; lane < range.count; ++lane) {
@@ -106,8 +112,8 @@ int32_t append_subtree(const Input& input, const Range& range, uint32_t level, P
         const Range& child = children.ranges[i];
         set_child_bounds(piece.nodes[index], i, child.bounds);
         if (child.count <= kLeafTriangles) {
-            piece.nodes[index].child[i] = ~int32_t(piece.blocks.size());
-            piece.blocks.push_back(make_block(input, child));
+            piece.nodes[index].child[i] = ~int32_t(piece.leaves.size());
+            piece.leaves.push_back({child.first, child.count});
         } else {
             // The vector may move during the call: index it afterwards.
             const int32_t below = append_subtree(input, child, level + 1, piece);
@@ -129,8 +135,8 @@ int32_t append_tree(const Input& input, const BinaryTree& tree, uint32_t from, u
         const Range& child = tree.range(children[i]);
         set_child_bounds(piece.nodes[index], i, child.bounds);
         if (tree.is_leaf(children[i])) {
-            piece.nodes[index].child[i] = ~int32_t(piece.blocks.size());
-            piece.blocks.push_back(make_block(input, child));
+            piece.nodes[index].child[i] = ~int32_t(piece.leaves.size());
+            piece.leaves.push_back({child.first, child.count});
         } else {
             const int32_t below = append_tree(input, tree, children[i], level + 1, piece);
             piece.nodes[index].child[i] = below;
@@ -143,7 +149,7 @@ std::unique_ptr<Piece> build_piece(const Input& input, const Range& range, uint3
     auto piece = std::make_unique<Piece>();
     if (range.count <= kTaskTriangles) {
         piece->nodes.reserve(range.count / 15 + 1);
-        piece->blocks.reserve(range.count / 3 + 1);
+        piece->leaves.reserve(range.count / 3 + 1);
         const BinaryTree tree(input.refs, range, input.scale);
         if (level + tree.depth() <= kBalancedLevel)
             append_tree(input, tree, 0, level, *piece);
@@ -157,8 +163,8 @@ std::unique_ptr<Piece> build_piece(const Input& input, const Range& range, uint3
     for (int i = 0; i < children.count; ++i) {
         set_child_bounds(piece->nodes[0], i, children.ranges[i].bounds);
         if (children.ranges[i].count > kLeafTriangles) continue;
-        piece->nodes[0].child[i] = ~int32_t(piece->blocks.size());
-        piece->blocks.push_back(make_block(input, children.ranges[i]));
+        piece->nodes[0].child[i] = ~int32_t(piece->leaves.size());
+        piece->leaves.push_back({children.ranges[i].first, children.ranges[i].count});
     }
     parallel_ranges(children.count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
@@ -170,32 +176,40 @@ std::unique_ptr<Piece> build_piece(const Input& input, const Range& range, uint3
 
 struct PlacedPiece {
     const Piece* piece;
-    int32_t first_node, first_block;
+    std::size_t first_node, first_block;
 };
 
-/// Gives every piece its place, depth first, and links pieces to the pieces above them.
-void place_pieces(Piece& piece, std::vector<PlacedPiece>& placed, Bvh& bvh) {
-    const PlacedPiece here{&piece, int32_t(bvh.nodes.size()), int32_t(bvh.blocks.size())};
-    placed.push_back(here);
-    bvh.depth = std::max(bvh.depth, piece.depth);
-    bvh.nodes.resize(bvh.nodes.size() + piece.nodes.size());
-    bvh.blocks.resize(bvh.blocks.size() + piece.blocks.size());
+/// Where pieces go, depth first.
+struct Places {
+    std::vector<PlacedPiece> pieces;
+    std::size_t node_count = 0, block_count = 0;
+    uint32_t depth = 0;
+};
+
+/// Gives every piece its place, and links pieces to the pieces above them.
+void place_pieces(Piece& piece, Places& places) {
+    const std::size_t first_node = places.node_count;
+    places.pieces.push_back({&piece, first_node, places.block_count});
+    places.depth = std::max(places.depth, piece.depth);
+    places.node_count += piece.nodes.size();
+    places.block_count += piece.leaves.size();
     for (int i = 0; i < kWidth; ++i) {
         if (!piece.kids[i]) continue;
         // Relative to this piece, like all its other children.
-        piece.nodes[0].child[i] = int32_t(bvh.nodes.size()) - here.first_node;
-        place_pieces(*piece.kids[i], placed, bvh);
+        piece.nodes[0].child[i] = int32_t(places.node_count - first_node);
+        place_pieces(*piece.kids[i], places);
     }
 }
 
-void copy_piece(const PlacedPiece& from, Bvh& bvh) {
-    std::copy(from.piece->blocks.begin(), from.piece->blocks.end(),
-              bvh.blocks.begin() + from.first_block);
+void copy_piece(const Input& input, const PlacedPiece& from, Bvh& bvh) {
+    for (std::size_t i = 0; i < from.piece->leaves.size(); ++i)
+        bvh.blocks[from.first_block + i] = make_block(input, from.piece->leaves[i]);
     for (std::size_t i = 0; i < from.piece->nodes.size(); ++i) {
         shared::BvhNode node = from.piece->nodes[i];
         for (int slot = 0; slot < kWidth; ++slot) {
             if (node.bounds[0][slot] > node.bounds[1][slot]) continue;  // unused: stays 0
-            node.child[slot] += node.child[slot] >= 0 ? from.first_node : -from.first_block;
+            node.child[slot] +=
+                node.child[slot] >= 0 ? int32_t(from.first_node) : -int32_t(from.first_block);
         }
         bvh.nodes[from.first_node + i] = node;
     }
@@ -232,10 +246,13 @@ Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles) {
     const Input input{positions, triangles, prims.refs, inverse_extent(bvh.bounds)};
     const std::unique_ptr<Piece> root = build_piece(input, all, 0);
 
-    std::vector<PlacedPiece> placed;
-    place_pieces(*root, placed, bvh);
-    parallel_ranges(placed.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) copy_piece(placed[i], bvh);
+    Places places;
+    place_pieces(*root, places);
+    bvh.depth = places.depth;
+    bvh.nodes.resize(places.node_count);
+    bvh.blocks.resize(places.block_count);
+    parallel_ranges(places.pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) copy_piece(input, places.pieces[i], bvh);
     });
     bvh.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "host/bvh/raw_vector.hpp"
 #include "wedge/math.hpp"
 #include "wedge/shared/bvh.h"
 
@@ -12,8 +12,8 @@ namespace wedge::bvh {
 
 /// nodes[0] is the root and is there even for an empty scene (all slots unused).
 struct Bvh {
-    std::vector<shared::BvhNode> nodes;
-    std::vector<shared::TriangleBlock> blocks;
+    RawVector<shared::BvhNode> nodes;
+    RawVector<shared::TriangleBlock> blocks;
     Bounds bounds;                  ///< of the triangles kept
     uint64_t degenerate_count = 0;  ///< dropped: two corners equal, or corners in one line
     uint64_t non_finite_count = 0;  ///< dropped: a corner is NaN, infinite or beyond FLT_MAX / 4

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "host/bvh/box.hpp"
+#include "host/bvh/raw_vector.hpp"
 #include "wedge/math.hpp"
 
 namespace wedge::bvh {
 
 struct PrimRefs {
-    std::vector<PrimRef> refs;  ///< in the order of the triangles
+    RawVector<PrimRef> refs;  ///< in the order of the triangles
     uint64_t degenerate_count = 0;
     uint64_t non_finite_count = 0;
 };
