@@ -104,8 +104,9 @@ ObjFacts scan_obj(std::string& text) {
         const std::string_view keyword = take_word(line);
         if (keyword == "mtllib" && !line.empty()) facts.mtllib_lines.emplace_back(line);
         if (keyword == "f" && !facts.may_overflow) facts.may_overflow = has_long_number(line);
-        // Tags of subdivision surfaces: not rendered, and the parser believes any size they claim.
-        if (keyword == "t") text[text.find('t', start)] = '#';
+        // Tags of subdivision surfaces and weights of skins are not rendered, and the parser
+        // believes any size and any index they claim: they become comments.
+        if (keyword == "t" || keyword == "vw") text[text.find(keyword[0], start)] = '#';
         if (keyword == "vn") count_bad(facts.bad_normals, line, 3, line_number);
         if (keyword == "vt") count_bad(facts.bad_uvs, line, 1, line_number);
         // A bare `v` without a blank is no vertex to the parser.

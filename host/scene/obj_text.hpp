@@ -27,7 +27,7 @@ struct ObjFacts {
 };
 
 /// One pass over the lines. Lines continued with a backslash are joined in place, line ends
-/// unified, and tags (`t`) made comments.
+/// unified, and what is not rendered but could harm (tags `t`, skin weights `vw`) made comments.
 ObjFacts scan_obj(std::string& text);
 
 /// Line, from 1, of a vertex, from 0; 0 if there is no such vertex.
