@@ -229,7 +229,8 @@ float inverse_extent(const Bounds& bounds) {
 
 }  // namespace
 
-Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles) {
+Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles,
+          [[maybe_unused]] BvhQuality quality) {
     const auto start = std::chrono::steady_clock::now();
     PrimRefs prims = collect_prim_refs(positions, triangles);
     Bvh bvh;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "host/bvh/raw_vector.hpp"
+#include "wedge/bvh.hpp"
 #include "wedge/math.hpp"
 #include "wedge/shared/bvh.h"
 
@@ -21,10 +22,10 @@ struct Bvh {
     double build_s = 0;
 };
 
-/// Binned surface-area heuristic (Wald 2007), collapsed to 8 children (Dammertz 2008). `triangles`
-/// index `positions`; TriangleBlock::primitive is the index into `triangles`. The same input gives
-/// the same bits whatever the number of threads. Throws Error(bad_input) if an index is out of
-/// range.
-Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles);
+/// Binned surface-area heuristic (Wald 2007), cut into nodes of 8 children. `triangles` index
+/// `positions`; TriangleBlock::primitive is the index into `triangles`. The same input gives the
+/// same bits whatever the number of threads. Throws Error(bad_input) if an index is out of range.
+Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles,
+          BvhQuality quality = BvhQuality::medium);
 
 }  // namespace wedge::bvh
