@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 
 namespace wedge::scene {
 namespace {

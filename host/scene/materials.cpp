@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 #include "wedge/log.hpp"
 
 namespace wedge::scene {

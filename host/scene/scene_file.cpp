@@ -7,7 +7,7 @@
 #include <set>
 
 #include "host/scene/asset_search.hpp"
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 #include "host/scene/json_reader.hpp"
 #include "host/scene/lights.hpp"
 #include "host/scene/materials.hpp"

@@ -244,4 +244,16 @@ TEST_CASE("scenes_with_lights_that_are_no_numbers_are_refused") {
     CHECK_THROWS_AS(render(scene, quick(4, 0)), Error);
 }
 
+TEST_CASE("every_bit_of_the_seed_counts") {
+    const Scene scene = make_room(0);
+    const auto pixels = [&](uint64_t seed) {
+        RenderOptions options = quick(4, 0);
+        options.seed = seed;
+        return render(scene, options).image.pixels;
+    };
+    const std::vector<float> first = pixels(1);
+    CHECK(pixels(1) == first);
+    for (int bit = 1; bit < 64; bit += 7) CHECK(pixels(1 + (uint64_t(1) << bit)) != first);
+}
+
 }  // namespace wedge::test
