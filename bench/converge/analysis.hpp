@@ -71,7 +71,14 @@ struct Curve {
 
 /// A ratio to the yardstick; below 1 is better than it.
 struct Ratio {
-    enum Kind { exact, at_most, unreached, unknown } kind = unknown;
+    enum Kind {
+        exact,
+        at_most,
+        unreached,  ///< the error, by no budget
+        late,       ///< the smallest budget takes longer
+        unknown
+    } kind = unknown;
+    bool has_value() const { return kind == exact || kind == at_most; }
     double value = 0;
 };
 

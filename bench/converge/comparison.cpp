@@ -16,7 +16,7 @@ Ratio error_ratio(const LogLogCurve& curve, double time, double yardstick_error)
     // Done before: its last image is there at that time.
     if (curve.points().back().x < time)
         return {Ratio::at_most, curve.points().back().y / yardstick_error};
-    return {Ratio::unreached, 0};
+    return {Ratio::late, 0};
 }
 
 Ratio cost_ratio(const LogLogCurve& curve, double error, double yardstick_cost) {
@@ -29,8 +29,8 @@ Ratio cost_ratio(const LogLogCurve& curve, double error, double yardstick_cost) 
 }
 
 bool is_worse(const Ratio& a, const Ratio& b) {
-    if (b.kind == Ratio::unreached) return false;
-    if (a.kind == Ratio::unreached) return true;
+    if (!b.has_value()) return false;
+    if (!a.has_value()) return true;
     return a.value > b.value;
 }
 
@@ -40,7 +40,7 @@ Summary summarise_ratios(const std::vector<std::pair<std::string, Ratio>>& ratio
     for (const auto& [scene, ratio] : ratios) {
         if (ratio.kind == Ratio::unknown) continue;
         ++summary.scenes;
-        if (ratio.kind == Ratio::unreached)
+        if (!ratio.has_value())
             ++summary.unreached;
         else
             values.push_back(ratio.value);

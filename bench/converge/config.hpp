@@ -23,8 +23,8 @@ struct Budget {
 
 /// Ladders, each rising. Seconds, if given, are for all methods; else each takes that of its knob.
 struct Budgets {
-    std::vector<double> spp{2, 4, 8, 16, 32};
-    std::vector<double> mu{0.5, 1, 2};
+    std::vector<double> spp{4, 8, 16, 32, 64};
+    std::vector<double> mu{0.25, 0.5, 1, 2};
     std::vector<double> seconds;
 };
 
@@ -35,7 +35,7 @@ struct Config {
     Budgets budgets;
     int seeds = 3;
     /// "WxH"; "full": the scene's own; "N": the scene's, made smaller so that no side is above N.
-    std::string size = "256";
+    std::string size = "192";
     std::optional<int> bounces;  ///< else the scene's
     int reference_spp = 0;       ///< 0: kReferenceFactor times the largest spp of the ladder
     Sampler reference_sampler = Sampler::hash;

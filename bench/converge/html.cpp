@@ -68,6 +68,8 @@ std::string text_of(const Ratio& ratio) {
             return "≤ " + short_number(ratio.value);
         case Ratio::unreached:
             return "not reached";
+        case Ratio::late:
+            return "not done";
         default:
             return "–";
     }
@@ -153,7 +155,7 @@ h3 { font-size: 1.05rem; margin: 1.75rem 0 .4rem; }
 p, li { max-width: 72ch; }
 .lead, .soft { color: var(--soft); }
 .soft { font-size: .875rem; margin: .25rem 0 .75rem; }
-nav a { color: inherit; margin-right: .9rem; }
+nav { margin-bottom: 1rem; } nav a { color: inherit; margin-right: .9rem; display: inline-block; }
 code { font: .84em/1.45 ui-monospace, "SFMono-Regular", Menlo, Consolas, monospace; overflow-wrap: anywhere; }
 pre { white-space: pre-wrap; background: var(--card); border: 1px solid var(--rule); border-radius: 6px; padding: .6rem .8rem; }
 .warn { background: var(--note); border-left: 4px solid var(--c2); padding: .5rem .9rem; border-radius: 4px; }
@@ -186,7 +188,7 @@ tbody th { font-weight: 600; }
 td small { color: var(--soft); display: block; }
 .good { color: var(--good); font-weight: 600; } .bad { color: var(--bad); font-weight: 600; }
 .strip { display: grid; gap: .6rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 13.5rem), 1fr)); }
-.strip img { width: 100%; display: block; border-radius: 3px; }
+.strip img { width: 100%; height: auto; display: block; border-radius: 3px; }
 .strip .insets { display: grid; grid-template-columns: 1fr 1fr; gap: 4px; margin-top: 4px; }
 img.pixels { image-rendering: pixelated; }
 .bars { display: grid; grid-template-columns: max-content 1fr max-content; gap: .3rem .6rem; align-items: center; font-size: .85rem; }

@@ -10,9 +10,14 @@ namespace {
 
 std::string cell(const Summary& s) {
     if (s.scenes == 0) return "–";
-    std::string text = std::isfinite(s.geometric_mean) ? short_number(s.geometric_mean) : "–";
-    if (s.unreached > 0) text += fmt::format(" ({}/{} not reached)", s.unreached, s.scenes);
-    return text + fmt::format("; worst {}: {}", s.worst_scene, text_of(s.worst));
+    std::string text;
+    if (s.unreached < s.scenes) text = short_number(s.geometric_mean);
+    if (s.unreached > 0)
+        text += fmt::format("{}{} in {}/{}", text.empty() ? "" : ", ", text_of(s.worst),
+                            s.unreached, s.scenes);
+    if (s.unreached < s.scenes && s.scenes > 1)
+        text += fmt::format("; worst {}: {}", s.worst_scene, text_of(s.worst));
+    return text;
 }
 
 std::string row(const std::vector<std::string>& cells) {

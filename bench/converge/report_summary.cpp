@@ -22,14 +22,15 @@ std::string ratio_html(double ratio, const std::string& text) {
 
 std::string summary_cell(const Summary& s) {
     if (s.scenes == 0) return "–";
-    std::string text = std::isfinite(s.geometric_mean)
-                           ? ratio_html(s.geometric_mean, short_number(s.geometric_mean))
-                           : "–";
+    std::string text;
+    if (s.unreached < s.scenes) text = ratio_html(s.geometric_mean, short_number(s.geometric_mean));
     if (s.unreached > 0)
+        text += fmt::format(" <span class=\"bad\">{}{}</span>", text_of(s.worst),
+                            s.scenes > 1 ? fmt::format(" in {}/{}", s.unreached, s.scenes) : "");
+    if (s.scenes > 1)
         text +=
-            fmt::format(" <span class=\"bad\">({}/{} not reached)</span>", s.unreached, s.scenes);
-    return text +
-           fmt::format("<small>worst {}, {}</small>", escaped(s.worst_scene), text_of(s.worst));
+            fmt::format("<small>worst: {}, {}</small>", escaped(s.worst_scene), text_of(s.worst));
+    return text;
 }
 
 std::string summary_table(const Analysis& analysis, const char* head,
@@ -39,7 +40,8 @@ std::string summary_table(const Analysis& analysis, const char* head,
     for (const Budget& budget : analysis.yardstick_budgets) table.head.push_back(text_of(budget));
     for (const MethodSummary& method : analysis.summaries) {
         std::vector<std::string> row{method.method->name};
-        for (const Summary& s : method.*column) row.push_back(summary_cell(s));
+        const bool is_yardstick = method.method == &yardstick_of(analysis);
+        for (const Summary& s : method.*column) row.push_back(is_yardstick ? "1" : summary_cell(s));
         table.rows.push_back(std::move(row));
     }
     return table_html(table);
@@ -114,7 +116,8 @@ std::string summary_section(const Analysis& analysis) {
                "<h3>Equal time: error over that of {0}</h3>\n<p class=\"soft\">Columns: the "
                "time that {0} takes with this budget. Below 1 is better than {0}. Geometric "
                "mean over scenes, and the worst scene. “≤”: the method's largest budget was "
-               "done before that time. Medians over seeds, interpolated in log-log, never "
+               "done before that time; “not done”: its smallest was not. Medians over seeds, "
+               "interpolated in log-log, never "
                "beyond what was measured.</p>\n",
                yardstick) +
            summary_table(analysis, "RMSE ratio", &MethodSummary::error_at_equal_time) +

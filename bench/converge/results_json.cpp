@@ -18,11 +18,11 @@ json of(const std::optional<PowerLaw>& fit) {
 }
 
 json of(const std::vector<Ratio>& ratios) {
-    constexpr const char* kKinds[] = {"exact", "at_most", "unreached", "unknown"};
+    constexpr const char* kKinds[] = {"exact", "at_most", "unreached", "late", "unknown"};
     json list = json::array();
     for (const Ratio& ratio : ratios)
         list.push_back({{"kind", kKinds[ratio.kind]},
-                        {"ratio", ratio.kind <= Ratio::at_most ? json(ratio.value) : json()}});
+                        {"ratio", ratio.has_value() ? json(ratio.value) : json()}});
     return list;
 }
 

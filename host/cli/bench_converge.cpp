@@ -108,11 +108,11 @@ void register_bench_converge(CLI::App& bench) {
     command
         ->add_option("--budgets", a->budgets,
                      "Ladder, as spp=2,4,8, mu=0.5,1,2 or s=1,2,4 (seconds, for all methods); "
-                     "repeatable; default: spp=2,4,8,16,32 and mu=0.5,1,2")
+                     "repeatable; default: spp=4,8,16,32,64 and mu=0.25,0.5,1,2")
         ->allow_extra_args(false);
     command->add_option("--seeds", a->seeds, "Runs of each; default: 3");
     command->add_option("--size", a->size,
-                        "Film as WIDTHxHEIGHT, as its largest side, or full, in px; default: 256");
+                        "Film as WIDTHxHEIGHT, as its largest side, or full, in px; default: 192");
     command->add_option("--bounces", a->bounces, "Indirect bounces; default: the scene's");
     command->add_option(
         "--reference-spp", a->reference_spp,
