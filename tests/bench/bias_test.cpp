@@ -1,6 +1,7 @@
 // Splits, tests and blocks on images whose bias and variance are known.
 #include <doctest/doctest.h>
 
+#include "tests/bench/approx.hpp"
 #include "tests/bench/synthetic.hpp"
 #include "wedge/error.hpp"
 
@@ -27,8 +28,8 @@ TEST_CASE("error_is_split_into_known_bias_and_variance") {
     SyntheticRung s(images(synthetic, 3, 0.01, 0.2), reference);
     split_errors(reference, s.rung);
     REQUIRE(s.rung.split);
-    CHECK(s.rung.split->variance == doctest::Approx(0.01).epsilon(0.03));
-    CHECK(s.rung.split->bias_squared == doctest::Approx(0.04).epsilon(0.03));
+    CHECK(s.rung.split->variance == test::close_to(0.01, 0.03));
+    CHECK(s.rung.split->bias_squared == test::close_to(0.04, 0.03));
 }
 
 TEST_CASE("unbiased_runs_show_no_bias_in_the_mean") {
@@ -47,13 +48,16 @@ TEST_CASE("z_test_passes_noise_and_catches_a_bias_below_it") {
     const Reference reference = synthetic.reference(1e-3);
     for (const double bias : {0.0, 0.02}) {
         SyntheticRung s(images(synthetic, 3, 0.01, bias), reference);
+        // Pooled with runs of four times the samples.
+        SyntheticRung longer(images(synthetic, 3, 0.0025, bias), reference);
+        for (RunRecord& record : longer.records) record.samples = 4;
         Curve curve;
-        curve.rungs.push_back(s.rung);
+        curve.rungs = {s.rung, longer.rung};
         const ZTest test = z_test(reference, curve);
         CHECK(test.tests == 3 * (kSide / 8) * (kSide / 8));
         if (bias == 0) {
             // 768 squares: a deviation of 5 %.
-            CHECK(test.mean_square_z == doctest::Approx(1).epsilon(0.2));
+            CHECK(test.mean_square_z == test::close_to(1, 0.2));
             CHECK(test.p > 1e-3);
         } else {
             CHECK(test.mean_square_z > 2);
@@ -72,7 +76,7 @@ TEST_CASE("bias_map_shows_five_percent_without_bias_and_most_with_it") {
     REQUIRE(without);
     REQUIRE(with);
     // 1024 blocks: a deviation of 0.7 %.
-    CHECK(without->share_below_5_percent == doctest::Approx(0.05).epsilon(0.6));
+    CHECK(without->share_below_5_percent == test::close_to(0.05, 0.6));
     CHECK(without->significant <= 2);
     CHECK(with->share_below_5_percent > 0.9);
     CHECK(with->significant > with->tests / 2);
@@ -95,13 +99,13 @@ TEST_CASE("blocks_lose_where_the_error_is_above_the_yardstick_at_equal_time") {
     Curve curve;
     curve.rungs = {other.rung};
     measure_blocks(reference, yardstick, curve);
-    CHECK(curve.rungs[0].blocks_worse == doctest::Approx(0.5));
-    CHECK(curve.rungs[0].blocks_twice == doctest::Approx(0.5));
+    CHECK(curve.rungs[0].blocks_worse == test::close_to(0.5, 1e-6));
+    CHECK(curve.rungs[0].blocks_twice == test::close_to(0.5, 1e-6));
     // Beyond the yardstick's rungs its error goes on as 1 / time: at 100, 0.01^2 is as much.
     SyntheticRung late({mixed}, reference, 400);
     curve.rungs = {late.rung};
     measure_blocks(reference, yardstick, curve);
-    CHECK(curve.rungs[0].blocks_worse == doctest::Approx(1));
+    CHECK(curve.rungs[0].blocks_worse == test::close_to(1, 1e-6));
 }
 
 TEST_CASE("ratios_to_the_yardstick_say_what_was_not_measured") {
@@ -121,14 +125,14 @@ TEST_CASE("ratios_to_the_yardstick_say_what_was_not_measured") {
                                     curve_of({{2, 0.5}, {8, 0.25}})};
     const Comparison c = compare(curves, 0)[1];
     CHECK(c.error_at_equal_time[0].kind == Ratio::late);
-    CHECK(c.error_at_equal_time[1].value == doctest::Approx(std::sqrt(0.5)));
+    CHECK(c.error_at_equal_time[1].value == test::close_to(std::sqrt(0.5), 1e-6));
     CHECK(c.error_at_equal_time[2].kind == Ratio::at_most);
-    CHECK(c.error_at_equal_time[2].value == doctest::Approx(1));
+    CHECK(c.error_at_equal_time[2].value == test::close_to(1, 1e-6));
     CHECK(c.time_at_equal_error[0].kind == Ratio::at_most);
-    CHECK(c.time_at_equal_error[0].value == doctest::Approx(2));
+    CHECK(c.time_at_equal_error[0].value == test::close_to(2, 1e-6));
     CHECK(c.time_at_equal_error[1].kind == Ratio::exact);
-    CHECK(c.time_at_equal_error[1].value == doctest::Approx(0.5));
-    CHECK(c.time_at_equal_error[2].value == doctest::Approx(0.5));
+    CHECK(c.time_at_equal_error[1].value == test::close_to(0.5, 1e-6));
+    CHECK(c.time_at_equal_error[2].value == test::close_to(0.5, 1e-6));
     const std::vector<Curve> worse{curves[0], curve_of({{1, 2}, {16, 0.6}})};
     CHECK(compare(worse, 0)[1].time_at_equal_error[1].kind == Ratio::unreached);
 }

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/bench/approx.hpp"
 #include "tests/bench/synthetic.hpp"
 
 using namespace wedge;
@@ -20,10 +21,10 @@ TEST_CASE("noise_of_the_reference_is_subtracted_from_mean_squares") {
     Synthetic synthetic(kWidth, kHeight, 1);
     const double noise = 0.01, own = 0.004;
     const Reference reference = synthetic.reference(own);
-    CHECK(mean_squared_error_of(reference) == doctest::Approx(own).epsilon(kTolerance));
+    CHECK(mean_squared_error_of(reference) == test::close_to(own, kTolerance));
     const Errors errors = measure_errors(synthetic.image(noise), reference);
-    CHECK(errors.mse_measured == doctest::Approx(noise + own).epsilon(kTolerance));
-    CHECK(errors.mse == doctest::Approx(noise).epsilon(kTolerance));
+    CHECK(errors.mse_measured == test::close_to(noise + own, kTolerance));
+    CHECK(errors.mse == test::close_to(noise, kTolerance));
 }
 
 TEST_CASE("relative_errors_lose_the_noise_of_the_reference_too") {
@@ -36,14 +37,14 @@ TEST_CASE("relative_errors_lose_the_noise_of_the_reference_too") {
         expected += noise / (r * r) / kWidth;
     }
     const Errors errors = measure_errors(synthetic.image(noise), synthetic.reference(own));
-    CHECK(errors.rel_mse == doctest::Approx(expected).epsilon(kTolerance));
+    CHECK(errors.rel_mse == test::close_to(expected, kTolerance));
 }
 
 TEST_CASE("a_perfect_image_beside_a_noisy_reference_has_no_error") {
     Synthetic synthetic(kWidth, kHeight, 3);
     const double own = 0.01;
     const Errors errors = measure_errors(synthetic.image(0), synthetic.reference(own));
-    CHECK(errors.mse_measured == doctest::Approx(own).epsilon(kTolerance));
+    CHECK(errors.mse_measured == test::close_to(own, kTolerance));
     CHECK(std::abs(errors.mse) < kTolerance * own);
 }
 
@@ -52,14 +53,14 @@ TEST_CASE("trimming_drops_fireflies_and_nothing_else") {
     const Reference reference = synthetic.reference(0);
     Image image = synthetic.image(0, 0.1);
     const Errors clean = measure_errors(image, reference);
-    CHECK(clean.mse_trimmed == doctest::Approx(clean.mse).epsilon(1e-4));
+    CHECK(clean.mse_trimmed == test::close_to(clean.mse, 1e-4));
     // 19 of 19 200 pixels are less than 0.1 %.
     for (int i = 0; i < 19; ++i) image.at(7 * i, 3, 1) = 1e4f;
     const Errors spotted = measure_errors(image, reference);
     CHECK(spotted.mse > 1e4);
-    CHECK(spotted.mse_trimmed == doctest::Approx(clean.mse).epsilon(1e-4));
+    CHECK(spotted.mse_trimmed == test::close_to(clean.mse, 1e-4));
     CHECK(spotted.rel_mse > 1e3);
-    CHECK(spotted.rel_mse_trimmed == doctest::Approx(clean.rel_mse).epsilon(1e-2));
+    CHECK(spotted.rel_mse_trimmed == test::close_to(clean.rel_mse, 1e-2));
 }
 
 TEST_CASE("errors_survive_being_written_and_read") {

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "bench/converge/calibration.hpp"
+#include "tests/bench/approx.hpp"
 #include "tests/bench/temporary_folder.hpp"
 #include "wedge/error.hpp"
 
@@ -106,9 +107,9 @@ TEST_CASE("configuration_files_say_which_key_is_wrong") {
 TEST_CASE("calibration_finds_the_knob_that_takes_the_time") {
     // 0.1 s and 0.05 s a sample.
     const auto linear = calibrate(Knob::spp, [](double spp) { return 0.1 + 0.05 * spp; });
-    CHECK(knob_for_seconds(linear, Knob::spp, 2.1) == doctest::Approx(40));
+    CHECK(knob_for_seconds(linear, Knob::spp, 2.1) == test::close_to(40, 1e-6));
     CHECK(knob_for_seconds(linear, Knob::spp, 0.01) == 1);
     const auto power = calibrate(Knob::mu, [](double mu) { return 3 * std::pow(mu, 1.5); });
-    CHECK(knob_for_seconds(power, Knob::mu, 24) == doctest::Approx(4));
+    CHECK(knob_for_seconds(power, Knob::mu, 24) == test::close_to(4, 1e-6));
     CHECK(knob_for_seconds(power, Knob::mu, 1e-9) == kLeastMu);
 }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "bench/converge/pictures.hpp"
+#include "tests/bench/approx.hpp"
 #include "tests/bench/temporary_folder.hpp"
 #include "wedge/image_io.hpp"
 
@@ -147,7 +148,7 @@ TEST_CASE("a_reference_takes_more_samples_without_losing_those_it_has") {
     request.folder = other.path();
     const Reference whole = make_reference(scene, request);
     for (std::size_t i = 0; i < whole.mean.pixels.size(); ++i)
-        CHECK(more.mean.pixels[i] == doctest::Approx(whole.mean.pixels[i]).epsilon(1e-5));
+        CHECK(more.mean.pixels[i] == test::close_to(whole.mean.pixels[i], 1e-5));
     request.spp = 512;
     CHECK(make_reference(scene, request).spp == 1024);
 }

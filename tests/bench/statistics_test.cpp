@@ -5,15 +5,17 @@
 #include <cmath>
 #include <random>
 
+#include "tests/bench/approx.hpp"
+
 using namespace wedge::converge;
 
 TEST_CASE("quantiles_are_linear_between_order_statistics") {
     // 1, 2, 3, 4: R's quantile(1:4, c(0, 0.1, 0.5, 0.9, 1)), type 7.
     const std::vector<double> values{4, 1, 3, 2};
     CHECK(quantile(values, 0) == 1);
-    CHECK(quantile(values, 0.1) == doctest::Approx(1.3));
-    CHECK(quantile(values, 0.5) == doctest::Approx(2.5));
-    CHECK(quantile(values, 0.9) == doctest::Approx(3.7));
+    CHECK(quantile(values, 0.1) == wedge::test::close_to(1.3, 1e-6));
+    CHECK(quantile(values, 0.5) == wedge::test::close_to(2.5, 1e-6));
+    CHECK(quantile(values, 0.9) == wedge::test::close_to(3.7, 1e-6));
     CHECK(quantile(values, 1) == 4);
     CHECK(std::isnan(quantile({}, 0.5)));
 }
@@ -31,8 +33,8 @@ TEST_CASE("ribbon_holds_eight_of_ten_normal_values") {
     std::vector<double> values(20000);
     for (double& v : values) v = normal(random);
     const Spread spread = spread_of(values);
-    CHECK(spread.low == doctest::Approx(-1.2816).epsilon(0.03));
-    CHECK(spread.high == doctest::Approx(1.2816).epsilon(0.03));
+    CHECK(spread.low == wedge::test::close_to(-1.2816, 0.03));
+    CHECK(spread.high == wedge::test::close_to(1.2816, 0.03));
 }
 
 TEST_CASE("slope_of_an_exact_power_law_is_found") {
@@ -43,8 +45,8 @@ TEST_CASE("slope_of_an_exact_power_law_is_found") {
     }
     const auto fit = fit_power_law(x, y);
     REQUIRE(fit);
-    CHECK(fit->slope == doctest::Approx(-0.75));
-    CHECK(std::exp(fit->log_scale) == doctest::Approx(3));
+    CHECK(fit->slope == wedge::test::close_to(-0.75, 1e-6));
+    CHECK(std::exp(fit->log_scale) == wedge::test::close_to(3, 1e-6));
     CHECK(fit->slope_error < 1e-12);
 }
 
@@ -76,9 +78,9 @@ TEST_CASE("slope_needs_two_different_costs_and_positive_errors") {
 
 TEST_CASE("interpolation_is_exact_on_a_power_law_and_ends_with_the_data") {
     const LogLogCurve curve({{16, 0.25}, {1, 1}, {4, 0.5}});  // x^-0.5, not in order
-    CHECK(*curve.at(1) == doctest::Approx(1));
-    CHECK(*curve.at(2) == doctest::Approx(std::pow(2, -0.5)));
-    CHECK(*curve.at(9) == doctest::Approx(1.0 / 3));
+    CHECK(*curve.at(1) == wedge::test::close_to(1, 1e-6));
+    CHECK(*curve.at(2) == wedge::test::close_to(std::pow(2, -0.5), 1e-6));
+    CHECK(*curve.at(9) == wedge::test::close_to(1.0 / 3, 1e-6));
     CHECK_FALSE(curve.at(0.99));
     CHECK_FALSE(curve.at(16.01));
 }
@@ -87,8 +89,8 @@ TEST_CASE("equal_error_is_where_the_curve_comes_down_first") {
     const LogLogCurve curve({{1, 1}, {4, 0.5}, {8, 0.6}, {64, 0.1}});
     const auto crossing = curve.comes_down_to(0.5);
     CHECK(crossing.kind == LogLogCurve::Crossing::found);
-    CHECK(crossing.x == doctest::Approx(4));
-    CHECK(curve.comes_down_to(0.7).x == doctest::Approx(std::pow(0.7, -2)));
+    CHECK(crossing.x == wedge::test::close_to(4, 1e-6));
+    CHECK(curve.comes_down_to(0.7).x == wedge::test::close_to(std::pow(0.7, -2), 1e-6));
     CHECK(curve.comes_down_to(0.05).kind == LogLogCurve::Crossing::above);
     CHECK(curve.comes_down_to(2).kind == LogLogCurve::Crossing::below);
     CHECK(LogLogCurve().comes_down_to(1).kind == LogLogCurve::Crossing::above);
@@ -96,11 +98,11 @@ TEST_CASE("equal_error_is_where_the_curve_comes_down_first") {
 
 TEST_CASE("student_p_values_agree_with_published_tables") {
     // Two-sided 5 % and 1 % points.
-    CHECK(student_p_value(12.706, 1) == doctest::Approx(0.05).epsilon(1e-3));
-    CHECK(student_p_value(4.303, 2) == doctest::Approx(0.05).epsilon(1e-3));
-    CHECK(student_p_value(-2.228, 10) == doctest::Approx(0.05).epsilon(1e-3));
-    CHECK(student_p_value(2.042, 30) == doctest::Approx(0.05).epsilon(2e-3));
-    CHECK(student_p_value(3.169, 10) == doctest::Approx(0.01).epsilon(1e-3));
-    CHECK(student_p_value(2.576, 1e6) == doctest::Approx(0.01).epsilon(2e-3));
-    CHECK(student_p_value(0, 5) == doctest::Approx(1));
+    CHECK(student_p_value(12.706, 1) == wedge::test::close_to(0.05, 1e-3));
+    CHECK(student_p_value(4.303, 2) == wedge::test::close_to(0.05, 1e-3));
+    CHECK(student_p_value(-2.228, 10) == wedge::test::close_to(0.05, 1e-3));
+    CHECK(student_p_value(2.042, 30) == wedge::test::close_to(0.05, 2e-3));
+    CHECK(student_p_value(3.169, 10) == wedge::test::close_to(0.01, 1e-3));
+    CHECK(student_p_value(2.576, 1e6) == wedge::test::close_to(0.01, 2e-3));
+    CHECK(student_p_value(0, 5) == wedge::test::close_to(1, 1e-6));
 }
