@@ -17,6 +17,10 @@ constexpr int kWidth = 8;
 // From this level on ranges are halved by count, which leaves at most an eighth for the next level:
 // 16 + log8(2^32 / 4) + 1 < WEDGE_MAX_DEPTH.
 constexpr uint32_t kBalancedLevel = 16;
+// Of the root's area: where the two sides of a node have less in common, cutting triangles is not
+// worth the search (Stich et al. 2009, section 4.5).
+constexpr float kLeastOverlap = 1e-5f;
+constexpr double kRefsPerTriangle = 1.5;
 // Subtrees up to this size are one task.
 constexpr uint32_t kTaskTriangles = 1 << 13;
 
@@ -35,10 +39,8 @@ struct Piece {
 };
 
 struct Input {
-    std::span<const Vec3> positions;
-    std::span<const UVec3> triangles;
+    Splitter splitter;
     std::span<PrimRef> refs;
-    float scale = 1;
 };
 
 shared::BvhNode unused_node() {
@@ -58,15 +60,20 @@ void set_child_bounds(shared::BvhNode& node, int slot, const Box& box) {
 shared::TriangleBlock make_block(const Input& input, const Leaf& range) {
     shared::TriangleBlock block{};
     std::fill_n(block.primitive, kLeafTriangles, WEDGE_NO_PRIMITIVE);
-    for (uint32_t lane = 0; lane < range.count; ++lane) {
-        const uint32_t primitive = input.refs[range.first + lane].primitive();
-        const UVec3 triangle = input.triangles[primitive];
+    const auto& [positions, triangles, scale, least_overlap] = input.splitter;
+    uint32_t lane = 0;
+    for (const PrimRef& ref : input.refs.subspan(range.first, range.count)) {
+        const uint32_t primitive = ref.primitive();
+        // Parts of one triangle can meet again.
+        if (std::count(block.primitive, block.primitive + lane, primitive)) continue;
+        const UVec3 triangle = triangles[primitive];
         block.primitive[lane] = primitive;
         for (int axis = 0; axis < 3; ++axis) {
-            block.v0[axis][lane] = input.positions[triangle.x][axis];
-            block.v1[axis][lane] = input.positions[triangle.y][axis];
-            block.v2[axis][lane] = input.positions[triangle.z][axis];
+            block.v0[axis][lane] = positions[triangle.x][axis];
+            block.v1[axis][lane] = positions[triangle.y][axis];
+            block.v2[axis][lane] = positions[triangle.z][axis];
         }
+        ++lane;
     }
     return block;
 }
@@ -87,7 +94,8 @@ Children divide(const Input& input, const Range& range, uint32_t level) {
         float widest_size = -1;
         for (int i = 0; i < children.count; ++i) {
             const Range& child = children.ranges[i];
-            const float size = balance ? float(child.count) : half_area(child.bounds, input.scale);
+            const float size =
+                balance ? float(child.count) : half_area(child.bounds, input.splitter.scale);
             if (child.count <= kLeafTriangles || size <= widest_size) continue;
             widest = i;
             widest_size = size;
@@ -95,7 +103,7 @@ Children divide(const Input& input, const Range& range, uint32_t level) {
         if (widest < 0) break;
         const Range opened = children.ranges[widest];
         const RangePair pair = balance ? split_by_count(input.refs, opened)
-                                       : split_by_area(input.refs, opened, input.scale);
+                                       : split_by_area(input.splitter, input.refs, opened);
         children.ranges[widest] = pair.left;
         children.ranges[children.count++] = pair.right;
     }
@@ -150,7 +158,7 @@ std::unique_ptr<Piece> build_piece(const Input& input, const Range& range, uint3
     if (range.count <= kTaskTriangles) {
         piece->nodes.reserve(range.count / 15 + 1);
         piece->leaves.reserve(range.count / 3 + 1);
-        const BinaryTree tree(input.refs, range, input.scale);
+        const BinaryTree tree(input.splitter, input.refs, range);
         if (level + tree.depth() <= kBalancedLevel)
             append_tree(input, tree, 0, level, *piece);
         else  // rare, and the only way whose depth has a bound
@@ -220,6 +228,13 @@ Bounds to_bounds(const Box& box) {
             Vec3(box.upper[0], box.upper[1], box.upper[2])};
 }
 
+/// Refs that a tree of high quality may have.
+uint32_t spare_capacity(uint32_t triangles) {
+    constexpr uint64_t kMost = 0x7fffffff;  // blocks are numbered by int
+    return uint32_t(std::max<uint64_t>(
+        triangles, std::min(uint64_t(kMost), uint64_t(double(triangles) * kRefsPerTriangle))));
+}
+
 float inverse_extent(const Bounds& bounds) {
     const Vec3 extent = bounds.extent();
     const float largest = glm::max(glm::max(extent.x, extent.y), extent.z);
@@ -229,22 +244,28 @@ float inverse_extent(const Bounds& bounds) {
 
 }  // namespace
 
-Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles,
-          [[maybe_unused]] BvhQuality quality) {
+Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles, BvhQuality quality) {
     const auto start = std::chrono::steady_clock::now();
     PrimRefs prims = collect_prim_refs(positions, triangles);
     Bvh bvh;
     bvh.degenerate_count = prims.degenerate_count;
     bvh.non_finite_count = prims.non_finite_count;
+    bvh.triangle_count = triangles.size();
     if (prims.refs.empty()) {
         bvh.nodes.push_back(unused_node());
         bvh.depth = 1;
         return bvh;
     }
 
-    const Range all = whole_range(prims.refs);
+    Range all = whole_range(prims.refs);
     bvh.bounds = to_bounds(all.bounds);
-    const Input input{positions, triangles, prims.refs, inverse_extent(bvh.bounds)};
+    Splitter splitter{positions, triangles, inverse_extent(bvh.bounds)};
+    if (quality == BvhQuality::high) {
+        splitter.least_overlap = kLeastOverlap * half_area(all.bounds, splitter.scale);
+        all.capacity = spare_capacity(all.count);
+        prims.refs.resize(all.capacity);
+    }
+    const Input input{splitter, prims.refs};
     const std::unique_ptr<Piece> root = build_piece(input, all, 0);
 
     Places places;

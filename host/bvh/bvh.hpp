@@ -19,6 +19,8 @@ struct Bvh {
     uint64_t degenerate_count = 0;  ///< dropped: two corners equal, or corners in one line
     uint64_t non_finite_count = 0;  ///< dropped: a corner is NaN, infinite or beyond FLT_MAX / 4
     uint32_t depth = 0;             ///< levels of nodes, at most WEDGE_MAX_DEPTH
+    uint64_t triangle_count = 0;    ///< it was built from, dropped ones included
+    double built_visits = 0;  ///< expected_visits when built; 0: not yet asked for (update.hpp)
     double build_s = 0;
 };
 

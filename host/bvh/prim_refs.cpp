@@ -17,11 +17,6 @@ constexpr std::size_t kChunk = 1 << 14;
 // Larger coordinates could have differences that are not finite.
 constexpr float kLargestCoordinate = 0.25f * FLT_MAX;
 
-bool is_usable(const Vec3& v) {
-    return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
-           std::abs(v.z) <= kLargestCoordinate;
-}
-
 PrimRef make_ref(const Vec3& v0, const Vec3& v1, const Vec3& v2, uint32_t primitive) {
     const Vec3 lower = glm::min(glm::min(v0, v1), v2);
     const Vec3 upper = glm::max(glm::max(v0, v1), v2);
@@ -69,6 +64,11 @@ Chunk collect_chunk(std::span<const Vec3> positions, std::span<const UVec3> tria
 }
 
 }  // namespace
+
+bool is_usable(const Vec3& v) {
+    return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
+           std::abs(v.z) <= kLargestCoordinate;
+}
 
 bool is_degenerate(const Vec3& v0, const Vec3& v1, const Vec3& v2) {
     using Double3 = glm::dvec3;

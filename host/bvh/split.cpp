@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/base/parallel.hpp"
+#include "host/bvh/spatial.hpp"
 
 namespace wedge::bvh {
 namespace {
@@ -96,10 +97,6 @@ Bins bin_refs(std::span<const PrimRef> refs, const BinMapping& mapping, int bin_
     });
     for (const Bins& part : parts) merge_bins(part, bins);
     return bins;
-}
-
-float block_count(uint32_t triangles) {
-    return float((triangles + 3) / 4);
 }
 
 struct Plane {
@@ -238,6 +235,33 @@ RangePair halve_by_index(std::span<const PrimRef> refs, const Range& range) {
     return pair;
 }
 
+/// Half the area of what the boxes on the two sides of the plane have in common; of everything
+/// where no plane divides.
+float overlap_at(const Bins& bins, const Plane& plane, float scale) {
+    if (plane.axis < 0) return std::numeric_limits<float>::infinity();
+    Box left, right;
+    for (int bin = 0; bin < bins.count; ++bin)
+        (bin < plane.bin ? left : right).include(bins.box(plane.axis, bin));
+    const Box common{maximum(left.lower, right.lower), minimum(left.upper, right.upper)};
+    for (int axis = 0; axis < 3; ++axis)
+        if (common.lower[axis] > common.upper[axis]) return 0;
+    return half_area(common, scale);
+}
+
+/// Gives each side its share of the range's spare places: the right one moves by that of the left.
+RangePair share_room(std::span<PrimRef> refs, const Range& range, RangePair pair) {
+    const uint32_t room = range.capacity - range.count;
+    const uint32_t shift = room_of_left(room, pair.left.count, pair.right.count);
+    // Any order will do: the first go behind the last.
+    const uint32_t moved = std::min(shift, pair.right.count);
+    const auto first = refs.begin() + pair.right.first;
+    std::copy(first, first + moved, first + shift + pair.right.count - moved);
+    pair.left.capacity = pair.left.count + shift;
+    pair.right.first += shift;
+    pair.right.capacity = pair.right.count + room - shift;
+    return pair;
+}
+
 }  // namespace
 
 Range whole_range(std::span<const PrimRef> refs) {
@@ -252,17 +276,24 @@ Range whole_range(std::span<const PrimRef> refs) {
     });
     Range range;
     for (const Range& part : parts) include_range(part, range);
+    range.capacity = range.count;
     return range;
 }
 
-RangePair split_by_area(std::span<PrimRef> refs, const Range& range, float scale) {
+RangePair split_by_area(const Splitter& splitter, std::span<PrimRef> refs, const Range& range) {
     const int bin_count = bin_count_for(range.count);
     const BinMapping mapping(range.centroids, bin_count);
     const Bins bins = bin_refs(refs.subspan(range.first, range.count), mapping, bin_count);
     Plane plane;
-    for (int axis = 0; axis < 3; ++axis) sweep_axis(bins, axis, scale, plane);
-    if (plane.axis < 0) return halve_by_index(refs, range);
-    return partition_at(refs, range, {mapping, plane});
+    for (int axis = 0; axis < 3; ++axis) sweep_axis(bins, axis, splitter.scale, plane);
+    if (splitter.least_overlap >= 0 && range.capacity > range.count &&
+        overlap_at(bins, plane, splitter.scale) > splitter.least_overlap) {
+        const SpatialPlane space = find_spatial_plane(splitter, refs, range);
+        if (space.cost < plane.cost)
+            if (const auto pair = split_by_space(splitter, refs, range, space)) return *pair;
+    }
+    if (plane.axis < 0) return share_room(refs, range, halve_by_index(refs, range));
+    return share_room(refs, range, partition_at(refs, range, {mapping, plane}));
 }
 
 RangePair split_by_count(std::span<PrimRef> refs, const Range& range) {
@@ -277,7 +308,7 @@ RangePair split_by_count(std::span<PrimRef> refs, const Range& range) {
                          const float ca = a.centroid()[axis], cb = b.centroid()[axis];
                          return ca != cb ? ca < cb : a.primitive() < b.primitive();
                      });
-    return halve_by_index(refs, range);
+    return share_room(refs, range, halve_by_index(refs, range));
 }
 
 }  // namespace wedge::bvh

@@ -32,7 +32,10 @@ device::Device& test_device() {
 }
 
 Tracer::Tracer(const Triangles& triangles, const TracerOptions& options)
-    : tree_(bvh::build(triangles.positions, triangles.indices, options.bvh.quality)),
+    : Tracer(bvh::build(triangles.positions, triangles.indices, options.bvh.quality), options) {}
+
+Tracer::Tracer(bvh::Bvh tree, const TracerOptions& options)
+    : tree_(std::move(tree)),
       device_tree_(rendering::upload_tree(test_device(), tree_, options.bvh)) {
     std::vector<std::string> defines = device_tree_.defines;
     if (options.portable) defines.push_back("WEDGE_PORTABLE_LANES=1");

@@ -42,6 +42,7 @@ struct TracerOptions {
 class Tracer {
   public:
     explicit Tracer(const Triangles& triangles, const TracerOptions& options = {});
+    explicit Tracer(bvh::Bvh tree, const TracerOptions& options = {});
     std::vector<PackedHit> closest(std::span<const PackedRay> rays) { return run(closest_, rays); }
     std::vector<PackedHit> occluded(std::span<const PackedRay> rays) {
         return run(occluded_, rays);
