@@ -194,6 +194,9 @@ void register_bench(CLI::App& app) {
     command->add_option("--json", arguments->json_file, "Write the numbers to this file");
     command->add_flag("--no-embree", arguments->no_embree, "Do not measure Embree");
     command->callback([arguments] { run(*arguments); });
+#if WEDGE_WITH_IMAGE
+    register_bench_converge(*group);
+#endif
 }
 
 }  // namespace wedge::cli
