@@ -10,6 +10,8 @@
 namespace wedge::converge {
 namespace {
 
+using baselines::Filter;
+
 template <Sampler kSampler>
 void monte_carlo(RenderOptions& o) {
     o.method = wedge::Method::mc;
@@ -29,6 +31,16 @@ constexpr Method kMethods[] = {
      monte_carlo<Sampler::stratified>},
     {"mc-hash", "Monte Carlo, independent samples", Knob::spp, false, monte_carlo<Sampler::hash>},
     {"aaf", "axis-aligned filtering", Knob::mu, true, by_method<wedge::Method::aaf>},
+    {"mc+gaussian", "mc-sobol, Gaussian of 2 px", Knob::spp, true, monte_carlo<Sampler::sobol>,
+     Filter::gaussian},
+    {"mc+bilateral", "mc-sobol, cross-bilateral filter", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::bilateral},
+    {"mc+atrous", "mc-sobol, a-trous wavelets (Dammertz et al. 2010)", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::atrous},
+    {"mc+nlm", "mc-sobol, two-buffer non-local means (Rousselle et al. 2012)", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::nlm},
+    {"mc+svgf", "mc-sobol, spatial part of SVGF (Schied et al. 2017)", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::svgf},
 };
 
 const char* name_of(wedge::Method method) {
@@ -74,6 +86,7 @@ nlohmann::json settings_json(const Method& method) {
     nlohmann::json settings = {{"method", name_of(options.method)},
                                {"sampler", to_string(options.sampler)},
                                {"sample_offset", options.sample_offset}};
+    if (method.filter) settings["filter"] = method.name;
     if (method.knob == Knob::mu)
         settings["samples_per_pixel"] =
             options.samples_per_pixel ? nlohmann::json(*options.samples_per_pixel) : "by mu";

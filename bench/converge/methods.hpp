@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "bench/baselines/denoise.hpp"
 #include "wedge/render.hpp"
 
 namespace wedge::converge {
@@ -19,6 +20,7 @@ struct Method {
     Knob knob;
     bool biased;  ///< filtered: no z-test, but a map of the bias
     void (*configure)(RenderOptions&);
+    std::optional<baselines::Filter> filter = {};  ///< over the finished render
 };
 
 std::span<const Method> all_methods();

@@ -9,6 +9,7 @@
 
 #include "bench/converge/calibration.hpp"
 #include "bench/converge/identity.hpp"
+#include "bench/converge/method_run.hpp"
 #include "host/device/device.hpp"
 #include "wedge/error.hpp"
 #include "wedge/image_io.hpp"
@@ -80,7 +81,7 @@ void copy_stats(const RenderStats& stats, RunRecord& record) {
     record.upload_s = stats.upload_s;
     record.compile_s = stats.compile_s;
     record.render_s = stats.render_s;
-    record.time_s = stats.flatten_s + stats.upload_s + stats.render_s;
+    record.time_s = counted_seconds(stats);
     record.passes = stats.passes;
     record.rays = stats.rays;
     record.samples = stats.samples;
@@ -93,7 +94,7 @@ void copy_stats(const RenderStats& stats, RunRecord& record) {
 class SceneRunner {
   public:
     SceneRunner(const Config& config, const Scene& scene, SceneRuns& out, const Say& say)
-        : config_(config), scene_(scene), out_(out), say_(say) {}
+        : config_(config), out_(out), say_(say), methods_(config, scene) {}
 
     void run_missing() {
         const std::string program = program_digest(config_.kernel_dir);
@@ -121,27 +122,12 @@ class SceneRunner {
     }
 
   private:
-    RenderOptions options(const Method& method, double knob, uint32_t seed) const {
-        RenderOptions o = options_for(method, knob, seed);
-        o.device = config_.device;
-        o.kernel_dir = config_.kernel_dir;
-        o.stop = config_.stop;
-        return o;
-    }
-
-    Frame render_whole(const RenderOptions& o) const {
-        Frame frame = render(scene_, o);
-        if (frame.stats.interrupted) throw Stopped{};
-        if (!frame.stats.failure.empty()) throw Error(ErrorKind::device, frame.stats.failure);
-        return frame;
-    }
-
     /// The first run of a method on a scene would pay for compiling what its passes launch late.
     void warm_up(const Method& method) {
         if (!warm_.insert(&method).second) return;
         const double least =
             method.knob == Knob::spp ? config_.budgets.spp.front() : config_.budgets.mu.front();
-        render_whole(options(method, least, 0));
+        methods_.run(method, least, 0);
     }
 
     double knob_for(const Method& method, const Budget& budget) {
@@ -151,8 +137,7 @@ class SceneRunner {
         auto [calibration, is_new] = calibrations_.try_emplace(&method);
         if (is_new)
             calibration->second = calibrate(method.knob, [&](double knob) {
-                const RenderStats stats = render_whole(options(method, knob, 0)).stats;
-                return stats.flatten_s + stats.upload_s + stats.render_s;
+                return counted_seconds(methods_.run(method, knob, 0).stats);
             });
         return knob_for_seconds(calibration->second, method.knob, budget.value);
     }
@@ -161,8 +146,7 @@ class SceneRunner {
         const Method& method = *task.method;
         warm_up(method);
         const double knob = knob_for(method, task.budget);
-        const RenderOptions o = options(method, knob, task.seed);
-        const Frame frame = render_whole(o);
+        const Frame frame = methods_.run(method, knob, task.seed);
 
         RunRecord record;
         record.key = task.key;
@@ -178,9 +162,10 @@ class SceneRunner {
         record.program = program;
         record.commit = built_from_commit();
         record.settings = settings_json(method);
-        record.command =
-            fmt::format("wedge render {} --size {}x{} --bounces {} {}", out_.file, out_.film.width,
-                        out_.film.height, out_.bounces, render_arguments(o));
+        record.command = fmt::format("wedge render {} --size {}x{} --bounces {} {}", out_.file,
+                                     out_.film.width, out_.film.height, out_.bounces,
+                                     render_arguments(methods_.options(method, knob, task.seed))) +
+                         (method.filter ? fmt::format(" # then {}", method.name) : "");
         copy_stats(frame.stats, record);
         record.image = fmt::format("images/{}-{}-{}{:g}-seed{}-{}.exr", out_.name, method.name,
                                    name_of(task.budget.unit), task.budget.value, task.seed,
@@ -191,9 +176,9 @@ class SceneRunner {
     }
 
     const Config& config_;
-    const Scene& scene_;
     SceneRuns& out_;
     const Say& say_;
+    MethodRunner methods_;
     std::set<const Method*> warm_;
     std::map<const Method*, Calibration> calibrations_;
     std::map<std::pair<const Method*, double>, double> knobs_;
