@@ -5,6 +5,7 @@
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
+#include <atomic>
 #include <cstring>
 
 #include "host/base/parallel.hpp"
@@ -21,30 +22,7 @@ constexpr std::size_t kGrain = 4096;  // rays a task
 
 class EmbreeTracer : public Tracer {
   public:
-    explicit EmbreeTracer(const rendering::FlatScene& flat)
-        : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* vertices =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                    sizeof(Vec3), flat.positions.size());
-        void* indices =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    sizeof(UVec3), flat.triangles.size());
-        if (!vertices || !indices)
-            throw Error(ErrorKind::internal, "Embree cannot take the scene; is memory short?");
-        std::memcpy(vertices, flat.positions.data(), flat.positions.size() * sizeof(Vec3));
-        std::memcpy(indices, flat.triangles.data(), flat.triangles.size() * sizeof(UVec3));
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        const Stopwatch watch;
-        rtcCommitScene(scene_);
-        build_s = watch.total();
-    }
-    ~EmbreeTracer() override {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
+    explicit EmbreeTracer(RTCScene scene) : scene_(scene) {}
 
     void load(const RaySet& set) override {
         set_ = &set;
@@ -85,19 +63,71 @@ class EmbreeTracer : public Tracer {
                 missed ? WEDGE_NO_PRIMITIVE : query.hit.primID};
     }
 
-    RTCDevice device_;
     RTCScene scene_;
     const RaySet* set_ = nullptr;
     std::vector<PackedHit> hits_;
 };
 
+class BuiltEmbreeScene : public EmbreeScene {
+  public:
+    BuiltEmbreeScene(const rendering::FlatScene& flat, BvhQuality quality)
+        : device_(rtcNewDevice(nullptr)) {
+        rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &device_bytes_);
+        scene_ = rtcNewScene(device_);
+        rtcSetSceneBuildQuality(scene_, quality == BvhQuality::high ? RTC_BUILD_QUALITY_HIGH
+                                                                    : RTC_BUILD_QUALITY_MEDIUM);
+        add_triangles(flat);
+        const int64_t mesh_bytes = device_bytes_;
+        const Stopwatch watch;
+        rtcCommitScene(scene_);
+        build_s = watch.total();
+        bytes = uint64_t(device_bytes_ - mesh_bytes);
+    }
+    ~BuiltEmbreeScene() override {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+    std::unique_ptr<Tracer> make_tracer() override {
+        return std::make_unique<EmbreeTracer>(scene_);
+    }
+
+  private:
+    /// Embree calls this from its threads, with negative sizes for what it gives back.
+    static bool count_bytes(void* total, ssize_t bytes, bool) {
+        *static_cast<std::atomic<int64_t>*>(total) += bytes;
+        return true;
+    }
+
+    void add_triangles(const rendering::FlatScene& flat) {
+        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* vertices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    sizeof(Vec3), flat.positions.size());
+        void* indices =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    sizeof(UVec3), flat.triangles.size());
+        if (!vertices || !indices)
+            throw Error(ErrorKind::internal, "Embree cannot take the scene; is memory short?");
+        std::memcpy(vertices, flat.positions.data(), flat.positions.size() * sizeof(Vec3));
+        std::memcpy(indices, flat.triangles.data(), flat.triangles.size() * sizeof(UVec3));
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+
+    std::atomic<int64_t> device_bytes_ = 0;
+    RTCDevice device_;
+    RTCScene scene_;
+};
+
 }  // namespace
 
-std::unique_ptr<Tracer> make_embree_tracer(const rendering::FlatScene& flat) {
-    return std::make_unique<EmbreeTracer>(flat);
+std::unique_ptr<EmbreeScene> build_embree_scene(const rendering::FlatScene& flat,
+                                                BvhQuality quality) {
+    return std::make_unique<BuiltEmbreeScene>(flat, quality);
 }
 #else
-std::unique_ptr<Tracer> make_embree_tracer(const rendering::FlatScene&) {
+std::unique_ptr<EmbreeScene> build_embree_scene(const rendering::FlatScene&, BvhQuality) {
     return nullptr;
 }
 #endif

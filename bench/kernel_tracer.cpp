@@ -7,16 +7,13 @@ namespace {
 
 class KernelTracer : public Tracer {
   public:
-    KernelTracer(device::Device& device, const bvh::Bvh& tree, uint32_t local_size)
-        : device_(device), local_size_(local_size) {
-        const device::ProgramRequest request{"kernels/trace.cl", {}};
+    KernelTracer(device::Device& device, const rendering::DeviceTree& tree, uint32_t local_size)
+        : device_(device), tree_(tree), local_size_(local_size) {
+        const device::ProgramRequest request{"kernels/trace.cl", tree.defines};
         const device::Program program =
             std::move(device::build_programs(device, {&request, 1}).front());
         closest_ = program.kernel("trace_closest_rays");
         occluded_ = program.kernel("trace_occluded_rays");
-        nodes_ = device.upload(std::span<const shared::BvhNode>(tree.nodes), "BVH nodes");
-        blocks_ = device.upload(std::span<const shared::TriangleBlock>(tree.blocks), "triangles");
-        build_s = tree.build_s;
     }
 
     void load(const RaySet& set) override {
@@ -29,11 +26,10 @@ class KernelTracer : public Tracer {
     double trace() override {
         if (count_ == 0) return 0;
         cl::Kernel& kernel = occlusion_ ? occluded_ : closest_;
-        kernel.setArg(0, nodes_);
-        kernel.setArg(1, blocks_);
-        kernel.setArg(2, rays_);
-        kernel.setArg(3, hits_);
-        kernel.setArg(4, cl_uint(count_));
+        cl_uint arg = tree_.set_args(kernel, 0);
+        kernel.setArg(arg++, rays_);
+        kernel.setArg(arg++, hits_);
+        kernel.setArg(arg++, cl_uint(count_));
         const Stopwatch watch;
         device_.launch(kernel, count_, local_size_);
         device_.finish();
@@ -48,17 +44,18 @@ class KernelTracer : public Tracer {
 
   private:
     device::Device& device_;
+    const rendering::DeviceTree& tree_;
     uint32_t local_size_;
     cl::Kernel closest_, occluded_;
-    cl::Buffer nodes_, blocks_, rays_, hits_;
+    cl::Buffer rays_, hits_;
     bool occlusion_ = false;
     std::size_t count_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Tracer> make_kernel_tracer(device::Device& device, const bvh::Bvh& tree,
-                                           uint32_t local_size) {
+std::unique_ptr<Tracer> make_kernel_tracer(device::Device& device,
+                                           const rendering::DeviceTree& tree, uint32_t local_size) {
     return std::make_unique<KernelTracer>(device, tree, local_size);
 }
 

@@ -9,6 +9,7 @@ namespace wedge::bench {
 namespace {
 
 double median(std::vector<double> values) {
+    if (values.empty()) return 0;
     std::sort(values.begin(), values.end());
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
@@ -25,35 +26,109 @@ bool is_hit(const PackedHit& hit) {
     return hit.primitive != WEDGE_NO_PRIMITIVE;
 }
 
-TraceRow measure_row(const RaySet& set, Tracer& kernels, Tracer* embree, int repeats) {
+/// A tree of one quality, and Embree's.
+struct BuiltTree {
+    BvhQuality quality;
+    bvh::Bvh tree;
+    std::unique_ptr<EmbreeScene> embree;
+    std::vector<double> build_s, embree_build_s, ratios;
+};
+
+BuiltTree build_trees(const rendering::FlatScene& flat, BvhQuality quality, bool embree,
+                      int repeats) {
+    BuiltTree built;
+    built.quality = quality;
+    for (int i = 0; i < repeats; ++i) {
+        built.tree = {};
+        built.tree = bvh::build(flat.positions, flat.triangles, quality);
+        built.build_s.push_back(built.tree.build_s);
+        if (!embree) continue;
+        built.embree.reset();
+        built.embree = build_embree_scene(flat, quality);
+        if (!built.embree) continue;
+        built.embree_build_s.push_back(built.embree->build_s);
+        built.ratios.push_back(built.tree.build_s / built.embree->build_s);
+    }
+    return built;
+}
+
+/// A tree in one layout, ready to be traced.
+struct Contender {
+    const BuiltTree* built;
+    BvhLayout layout;
+    std::unique_ptr<rendering::DeviceTree> on_device;
+    std::unique_ptr<Tracer> kernels, embree;
+    std::vector<double> wedge_s, embree_s, ratios;
+};
+
+Contender make_contender(device::Device& device, const BuiltTree& built, BvhLayout layout,
+                         uint32_t local_size) {
+    Contender contender{.built = &built, .layout = layout};
+    if (layout == BvhLayout::automatic)
+        contender.layout = rendering::suitable_layout(device.info());
+    contender.on_device = std::make_unique<rendering::DeviceTree>(
+        rendering::upload_tree(device, built.tree, {.layout = contender.layout}));
+    contender.kernels = make_kernel_tracer(device, *contender.on_device, local_size);
+    if (built.embree) contender.embree = built.embree->make_tracer();
+    return contender;
+}
+
+void time_once(Contender& c) {
+    c.wedge_s.push_back(c.kernels->trace());
+    if (!c.embree) return;
+    c.embree_s.push_back(c.embree->trace());
+    c.ratios.push_back(c.embree_s.back() / c.wedge_s.back());
+}
+
+TraceRow make_row(const RaySet& set, const Contender& c) {
     TraceRow row;
     row.kind = set.kind;
     row.rays = set.rays.size();
     if (set.rays.empty()) return row;
-    kernels.load(set);
-    kernels.trace();
-    if (embree) {
-        embree->load(set);
-        embree->trace();
-    }
-    std::vector<double> wedge_s, embree_s, ratios;
-    for (int i = 0; i < repeats; ++i) {
-        wedge_s.push_back(kernels.trace());
-        if (!embree) continue;
-        embree_s.push_back(embree->trace());
-        ratios.push_back(embree_s.back() / wedge_s.back());
-    }
-    row.wedge = rate_of(row.rays, wedge_s);
-    const std::vector<PackedHit> hits = kernels.hits();
+    row.wedge = rate_of(row.rays, c.wedge_s);
+    const std::vector<PackedHit> hits = c.kernels->hits();
     row.hit_share = double(std::count_if(hits.begin(), hits.end(), is_hit)) / double(row.rays);
-    if (embree) {
-        row.embree = rate_of(row.rays, embree_s);
-        row.ratio_embree = median(ratios);
-        const std::vector<PackedHit> others = embree->hits();
-        for (std::size_t i = 0; i < hits.size(); ++i)
-            row.differing += is_hit(hits[i]) != is_hit(others[i]);
-    }
+    if (!c.embree) return row;
+    row.embree = rate_of(row.rays, c.embree_s);
+    row.ratio_embree = median(c.ratios);
+    const std::vector<PackedHit> others = c.embree->hits();
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        row.differing += is_hit(hits[i]) != is_hit(others[i]);
     return row;
+}
+
+/// Appends a row to each contender's report.
+void measure_rows(const RaySet& set, std::vector<Contender>& contenders, int repeats,
+                  std::vector<TraceReport>& reports) {
+    for (Contender& c : contenders) {
+        c.kernels->load(set);
+        if (c.embree) c.embree->load(set);
+        if (!set.rays.empty()) time_once(c);  // not counted
+        c.wedge_s.clear(), c.embree_s.clear(), c.ratios.clear();
+    }
+    for (int i = 0; i < repeats && !set.rays.empty(); ++i)
+        for (Contender& c : contenders) time_once(c);
+    for (std::size_t i = 0; i < contenders.size(); ++i)
+        reports[i].rows.push_back(make_row(set, contenders[i]));
+}
+
+TraceReport make_report(const Scene& scene, const rendering::FlatScene& flat, const Contender& c) {
+    TraceReport report;
+    report.scene = scene.name;
+    report.layout = c.layout;
+    report.quality = c.built->quality;
+    report.triangles = flat.triangles.size();
+    report.nodes = c.built->tree.nodes.size();
+    report.blocks = c.built->tree.blocks.size();
+    report.tree_bytes = c.on_device->bytes;
+    report.depth = c.built->tree.depth;
+    report.build_s = median(c.built->build_s);
+    if (c.built->embree) {
+        report.embree_build_s = median(c.built->embree_build_s);
+        report.build_ratio_embree = median(c.built->ratios);
+        report.embree_bytes = c.built->embree->bytes;
+    }
+    return report;
 }
 
 }  // namespace
@@ -68,35 +143,32 @@ Scene made_up_scene() {
     return scene;
 }
 
-TraceReport measure_tracing(device::Device& device, const Scene& scene,
-                            const TraceBenchOptions& options) {
+std::vector<TraceReport> measure_tracing(device::Device& device, const Scene& scene,
+                                         const TraceBenchOptions& options) {
     const rendering::FlatScene flat = rendering::flatten(scene);
-    const bvh::Bvh tree = bvh::build(flat.positions, flat.triangles);
-    const auto kernels = make_kernel_tracer(device, tree, options.local_size);
     // Beside a GPU, a rate on the host's cores says nothing.
-    const bool compare = options.embree && device.info().type == DeviceType::cpu;
-    const auto embree = compare ? make_embree_tracer(flat) : nullptr;
+    const bool embree = options.embree && device.info().type == DeviceType::cpu;
+    std::vector<BuiltTree> built;
+    for (const BvhQuality quality : options.qualities)
+        built.push_back(build_trees(flat, quality, embree, options.build_repeats));
+    std::vector<Contender> contenders;
+    std::vector<TraceReport> reports;
+    for (const BuiltTree& one : built)
+        for (const BvhLayout layout : options.layouts) {
+            contenders.push_back(make_contender(device, one, layout, options.local_size));
+            reports.push_back(make_report(scene, flat, contenders.back()));
+        }
 
-    TraceReport report;
-    report.scene = scene.name;
-    report.triangles = flat.triangles.size();
-    report.nodes = tree.nodes.size();
-    report.blocks = tree.blocks.size();
-    report.tree_bytes = tree.nodes.size() * sizeof(shared::BvhNode) +
-                        tree.blocks.size() * sizeof(shared::TriangleBlock);
-    report.depth = tree.depth;
-    report.build_s = tree.build_s;
-    if (embree) report.embree_build_s = embree->build_s;
-
+    Tracer& first = *contenders.front().kernels;
     const TraceClosest trace = [&](std::span<const PackedRay> rays) {
-        kernels->load({"", false, {rays.begin(), rays.end()}});
-        kernels->trace();
-        return kernels->hits();
+        first.load({"", false, {rays.begin(), rays.end()}});
+        first.trace();
+        return first.hits();
     };
-    for (const RaySet& set :
-         make_ray_sets(scene, flat, tree.bounds, options.width, options.height, trace))
-        report.rows.push_back(measure_row(set, *kernels, embree.get(), options.repeats));
-    return report;
+    for (const RaySet& set : make_ray_sets(scene, flat, built.front().tree.bounds, options.width,
+                                           options.height, trace))
+        measure_rows(set, contenders, options.repeats, reports);
+    return reports;
 }
 
 }  // namespace wedge::bench

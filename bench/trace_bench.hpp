@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/device/device.hpp"
+#include "wedge/bvh.hpp"
 #include "wedge/scene.hpp"
 
 namespace wedge::bench {
@@ -14,7 +15,11 @@ struct TraceBenchOptions {
     int width = 1024, height = 768;  ///< primary rays, px
     int repeats = 7;                 ///< timed, after one that is not
     uint32_t local_size = 0;         ///< work-group size; 0: what suits the device
-    bool embree = true;  ///< measured too, where the build has it and the device is a CPU
+    bool embree = true;     ///< measured too, where the build has it and the device is a CPU
+    int build_repeats = 3;  ///< builds of each tree, by turns with Embree's; the median counts
+    /// Trees to be measured; all layouts of one quality share one build.
+    std::vector<BvhLayout> layouts = {BvhLayout::automatic};
+    std::vector<BvhQuality> qualities = {BvhQuality::medium};
 };
 
 struct Rate {
@@ -32,20 +37,26 @@ struct TraceRow {
     std::size_t differing = 0;           ///< rays for which one tracer hits and the other misses
 };
 
+/// One scene in one tree.
 struct TraceReport {
     std::string scene;
-    uint64_t triangles = 0, nodes = 0, blocks = 0, tree_bytes = 0;
+    BvhLayout layout = BvhLayout::wide;
+    BvhQuality quality = BvhQuality::medium;
+    uint64_t triangles = 0, nodes = 0, blocks = 0;
+    uint64_t tree_bytes = 0;  ///< on the device
     uint32_t depth = 0;
-    double build_s = 0;
-    std::optional<double> embree_build_s;
+    double build_s = 0;  ///< median, without the change of layout
+    std::optional<double> embree_build_s, build_ratio_embree;
+    std::optional<uint64_t> embree_bytes;
     std::vector<TraceRow> rows;
 };
 
 /// Spheres over a plane, for a machine without scene files.
 Scene made_up_scene();
 
-/// Runs of the two tracers alternate, so that a slow moment of the machine meets both.
-TraceReport measure_tracing(device::Device& device, const Scene& scene,
-                            const TraceBenchOptions& options);
+/// A report for each quality and layout, all with the same rays. All tracers take turns, so that a
+/// slow moment of the machine meets them all. Embree's trees are of the same quality.
+std::vector<TraceReport> measure_tracing(device::Device& device, const Scene& scene,
+                                         const TraceBenchOptions& options);
 
 }  // namespace wedge::bench

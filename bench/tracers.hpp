@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/rays.hpp"
-#include "host/bvh/bvh.hpp"
 #include "host/device/device.hpp"
+#include "host/render/device_tree.hpp"
 
 namespace wedge::bench {
 
@@ -17,14 +17,25 @@ class Tracer {
     virtual void load(const RaySet& set) = 0;   ///< not timed
     virtual double trace() = 0;                 ///< seconds for the set loaded
     virtual std::vector<PackedHit> hits() = 0;  ///< of the last trace
-    double build_s = 0;                         ///< of the acceleration structure
 };
 
-/// The kernels on `device`, which must outlive the tracer. `local_size` 0: what suits the device.
-std::unique_ptr<Tracer> make_kernel_tracer(device::Device& device, const bvh::Bvh& tree,
-                                           uint32_t local_size);
+/// The kernels on `device`, which like the tree must outlive the tracer. `local_size` 0: what suits
+/// the device.
+std::unique_ptr<Tracer> make_kernel_tracer(device::Device& device,
+                                           const rendering::DeviceTree& tree, uint32_t local_size);
 
-/// Embree's rtcIntersect1 and rtcOccluded1 on all cores; null in a build without Embree.
-std::unique_ptr<Tracer> make_embree_tracer(const rendering::FlatScene& flat);
+/// Embree's structure over a scene.
+class EmbreeScene {
+  public:
+    virtual ~EmbreeScene() = default;
+    /// rtcIntersect1 and rtcOccluded1 on all cores. The scene must outlive the tracer.
+    virtual std::unique_ptr<Tracer> make_tracer() = 0;
+    double build_s = 0;
+    uint64_t bytes = 0;  ///< of the structure, as Embree counts them, without its copy of the mesh
+};
+
+/// Null in a build without Embree.
+std::unique_ptr<EmbreeScene> build_embree_scene(const rendering::FlatScene& flat,
+                                                BvhQuality quality);
 
 }  // namespace wedge::bench

@@ -17,21 +17,22 @@ inline Ray unpack_ray(__global const PackedRay* packed) {
     return ray;
 }
 
-__kernel void trace_closest_rays(__global const BvhNode* nodes,
-                                 __global const TriangleBlock* blocks,
-                                 __global const PackedRay* rays, __global Hit* hits, uint count) {
+__kernel void trace_closest_rays(WEDGE_TREE_PARAMS, __global const PackedRay* rays,
+                                 __global Hit* hits, uint count) {
     uint i = get_global_id(0);
     if (i >= count) return;
+    TreeNodes nodes = WEDGE_TREE_NODES;
+    TreeBlocks blocks = WEDGE_TREE_BLOCKS;
     hits[i] = trace_closest(nodes, blocks, unpack_ray(rays + i));
 }
 
 // A hit is t = 0, primitive = 0; a miss is t = t_max, primitive = WEDGE_NO_PRIMITIVE.
-__kernel void trace_occluded_rays(__global const BvhNode* nodes,
-                                  __global const TriangleBlock* blocks,
-                                  __global const PackedRay* rays, __global Hit* hits,
-                                  uint count) {
+__kernel void trace_occluded_rays(WEDGE_TREE_PARAMS, __global const PackedRay* rays,
+                                  __global Hit* hits, uint count) {
     uint i = get_global_id(0);
     if (i >= count) return;
+    TreeNodes nodes = WEDGE_TREE_NODES;
+    TreeBlocks blocks = WEDGE_TREE_BLOCKS;
     Ray ray = unpack_ray(rays + i);
     bool occluded = trace_occluded(nodes, blocks, ray);
     Hit hit = {occluded ? 0.0f : ray.t_max, 0.0f, 0.0f, occluded ? 0u : WEDGE_NO_PRIMITIVE};

@@ -4,23 +4,23 @@
 
 namespace wedge::bvh {
 
-BinaryTree::BinaryTree(std::span<PrimRef> refs, const Range& range, float scale) {
+BinaryTree::BinaryTree(const Splitter& splitter, std::span<PrimRef> refs, const Range& range) {
     nodes_.reserve(range.count);
-    divide(refs, range, scale);
+    divide(splitter, refs, range);
 }
 
-uint32_t BinaryTree::divide(std::span<PrimRef> refs, const Range& range, float scale) {
+uint32_t BinaryTree::divide(const Splitter& splitter, std::span<PrimRef> refs, const Range& range) {
     const uint32_t index = uint32_t(nodes_.size());
     nodes_.push_back({range});
     if (range.count > kLeafTriangles) {
-        const RangePair pair = split_by_area(refs, range, scale);
+        const RangePair pair = split_by_area(splitter, refs, range);
         // The vector may move during the calls: index it afterwards.
-        const uint32_t left = divide(refs, pair.left, scale);
-        const uint32_t right = divide(refs, pair.right, scale);
+        const uint32_t left = divide(splitter, refs, pair.left);
+        const uint32_t right = divide(splitter, refs, pair.right);
         nodes_[index].left = left;
         nodes_[index].right = right;
     }
-    choose_cut(nodes_[index], scale);
+    choose_cut(nodes_[index], splitter.scale);
     return index;
 }
 

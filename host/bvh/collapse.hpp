@@ -18,8 +18,8 @@ class BinaryTree {
     static constexpr uint32_t kLeafTriangles = 4;
 
     /// Divides `range` by the surface-area heuristic down to leaves of at most four triangles.
-    /// Reorders the refs of the range. `scale` is 1 / the scene's largest extent.
-    BinaryTree(std::span<PrimRef> refs, const Range& range, float scale);
+    /// Reorders the refs of the range.
+    BinaryTree(const Splitter& splitter, std::span<PrimRef> refs, const Range& range);
 
     /// Levels of 8-wide nodes.
     uint32_t depth() const;
@@ -41,7 +41,7 @@ class BinaryTree {
         std::array<uint8_t, kWidth> from_left{};
     };
 
-    uint32_t divide(std::span<PrimRef> refs, const Range& range, float scale);
+    uint32_t divide(const Splitter& splitter, std::span<PrimRef> refs, const Range& range);
     void choose_cut(Node& node, float scale) const;
     void gather(uint32_t index, int slots, std::array<uint32_t, kWidth>& out, int& count) const;
     uint32_t depth_below(uint32_t index) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cfloat>
+#include <vector>
 
 #include "host/base/parallel.hpp"
 #include "wedge/error.hpp"
@@ -15,11 +16,6 @@ constexpr std::size_t kChunk = 1 << 14;
 
 // Larger coordinates could have differences that are not finite.
 constexpr float kLargestCoordinate = 0.25f * FLT_MAX;
-
-bool is_usable(const Vec3& v) {
-    return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
-           std::abs(v.z) <= kLargestCoordinate;
-}
 
 PrimRef make_ref(const Vec3& v0, const Vec3& v1, const Vec3& v2, uint32_t primitive) {
     const Vec3 lower = glm::min(glm::min(v0, v1), v2);
@@ -42,12 +38,17 @@ void check_indices(std::span<const UVec3> triangles, std::size_t first, std::siz
     }
 }
 
-/// The refs of triangles [first, last).
-PrimRefs collect_chunk(std::span<const Vec3> positions, std::span<const UVec3> triangles,
-                       std::size_t first, std::size_t last) {
+/// What became of triangles [first, last).
+struct Chunk {
+    std::size_t kept = 0;
+    uint64_t degenerate_count = 0, non_finite_count = 0;
+};
+
+/// Writes the refs of triangles [first, last) to `refs`, without gaps.
+Chunk collect_chunk(std::span<const Vec3> positions, std::span<const UVec3> triangles,
+                    std::size_t first, std::size_t last, PrimRef* refs) {
     check_indices(triangles, first, last, positions.size());
-    PrimRefs chunk;
-    chunk.refs.reserve(last - first);
+    Chunk chunk;
     for (std::size_t i = first; i < last; ++i) {
         const Vec3& v0 = positions[triangles[i].x];
         const Vec3& v1 = positions[triangles[i].y];
@@ -57,12 +58,17 @@ PrimRefs collect_chunk(std::span<const Vec3> positions, std::span<const UVec3> t
         else if (is_degenerate(v0, v1, v2))
             ++chunk.degenerate_count;
         else
-            chunk.refs.push_back(make_ref(v0, v1, v2, uint32_t(i)));
+            refs[chunk.kept++] = make_ref(v0, v1, v2, uint32_t(i));
     }
     return chunk;
 }
 
 }  // namespace
+
+bool is_usable(const Vec3& v) {
+    return std::abs(v.x) <= kLargestCoordinate && std::abs(v.y) <= kLargestCoordinate &&
+           std::abs(v.z) <= kLargestCoordinate;
+}
 
 bool is_degenerate(const Vec3& v0, const Vec3& v1, const Vec3& v2) {
     using Double3 = glm::dvec3;
@@ -78,28 +84,26 @@ bool is_degenerate(const Vec3& v0, const Vec3& v1, const Vec3& v2) {
 }
 
 PrimRefs collect_prim_refs(std::span<const Vec3> positions, std::span<const UVec3> triangles) {
-    const std::size_t chunk_count = (triangles.size() + kChunk - 1) / kChunk;
-    std::vector<PrimRefs> chunks(chunk_count);
-    parallel_ranges(chunk_count, 1, [&](std::size_t begin, std::size_t end) {
+    PrimRefs all;
+    all.refs.resize(triangles.size());
+    std::vector<Chunk> chunks((triangles.size() + kChunk - 1) / kChunk);
+    parallel_ranges(chunks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
             chunks[c] = collect_chunk(positions, triangles, c * kChunk,
-                                      std::min((c + 1) * kChunk, triangles.size()));
+                                      std::min((c + 1) * kChunk, triangles.size()),
+                                      all.refs.data() + c * kChunk);
     });
 
-    PrimRefs all;
-    std::vector<std::size_t> offsets;
+    // Close the gaps that dropped triangles left; most often there are none.
     std::size_t kept = 0;
-    for (const PrimRefs& chunk : chunks) {
-        all.degenerate_count += chunk.degenerate_count;
-        all.non_finite_count += chunk.non_finite_count;
-        offsets.push_back(kept);
-        kept += chunk.refs.size();
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        all.degenerate_count += chunks[c].degenerate_count;
+        all.non_finite_count += chunks[c].non_finite_count;
+        const auto first = all.refs.begin() + c * kChunk;
+        if (kept != c * kChunk) std::copy(first, first + chunks[c].kept, all.refs.begin() + kept);
+        kept += chunks[c].kept;
     }
     all.refs.resize(kept);
-    parallel_ranges(chunk_count, 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c)
-            std::copy(chunks[c].refs.begin(), chunks[c].refs.end(), all.refs.begin() + offsets[c]);
-    });
     return all;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -24,14 +25,42 @@ struct BenchArguments {
     std::vector<std::string> scenes;
     std::vector<std::string> asset_paths;
     std::string device, json_file;
+    std::string layout = "auto", quality = "medium";
     bench::TraceBenchOptions options;
     bool no_embree = false;
 };
 
+const std::map<std::string, std::vector<BvhLayout>> kLayouts = {
+    {"auto", {BvhLayout::automatic}},
+    {"wide", {BvhLayout::wide}},
+    {"compressed", {BvhLayout::compressed}},
+    {"binary", {BvhLayout::binary}},
+    {"all", {BvhLayout::wide, BvhLayout::compressed, BvhLayout::binary}}};
+
+const std::map<std::string, std::vector<BvhQuality>> kQualities = {
+    {"medium", {BvhQuality::medium}},
+    {"high", {BvhQuality::high}},
+    {"all", {BvhQuality::medium, BvhQuality::high}}};
+
+const char* name_of(BvhLayout layout) {
+    return layout == BvhLayout::binary       ? "binary"
+           : layout == BvhLayout::compressed ? "compressed"
+                                             : "wide";
+}
+
+const char* name_of(BvhQuality quality) {
+    return quality == BvhQuality::high ? "high" : "medium";
+}
+
 void print_report(const bench::TraceReport& report) {
-    fmt::print("{}: {} triangles, tree {} in {}", report.scene, text_of_number(report.triangles),
+    fmt::print("{}, {} {}: {} triangles, tree {} in {}", report.scene, name_of(report.layout),
+               name_of(report.quality), text_of_number(report.triangles),
                text_of_bytes(report.tree_bytes), text_of_seconds(report.build_s));
-    if (report.embree_build_s) fmt::print(" (Embree {})", text_of_seconds(*report.embree_build_s));
+    if (report.embree_build_s)
+        fmt::print(" (Embree {} in {}: {:.2f} of its memory, {:.2f} of its time)",
+                   text_of_bytes(*report.embree_bytes), text_of_seconds(*report.embree_build_s),
+                   double(report.tree_bytes) / double(*report.embree_bytes),
+                   *report.build_ratio_embree);
     fmt::print("\n  {:<10}{:>10}{:>7}{:>10}{:>9}{:>10}{:>9}{:>8}{:>11}\n", "rays", "count", "hits",
                "Mray/s", "spread", "Embree", "spread", "ratio", "differing");
     for (const bench::TraceRow& row : report.rows) {
@@ -46,11 +75,21 @@ void print_report(const bench::TraceReport& report) {
 }
 
 ordered_json json_of(const bench::TraceReport& report) {
-    ordered_json json{{"scene", report.scene},           {"triangles", report.triangles},
-                      {"nodes", report.nodes},           {"blocks", report.blocks},
-                      {"tree_bytes", report.tree_bytes}, {"depth", report.depth},
-                      {"build_s", report.build_s},       {"rows", ordered_json::array()}};
-    if (report.embree_build_s) json["embree_build_s"] = *report.embree_build_s;
+    ordered_json json{{"scene", report.scene},
+                      {"layout", name_of(report.layout)},
+                      {"quality", name_of(report.quality)},
+                      {"triangles", report.triangles},
+                      {"nodes", report.nodes},
+                      {"blocks", report.blocks},
+                      {"tree_bytes", report.tree_bytes},
+                      {"depth", report.depth},
+                      {"build_s", report.build_s},
+                      {"rows", ordered_json::array()}};
+    if (report.embree_build_s) {
+        json["embree_build_s"] = *report.embree_build_s;
+        json["build_ratio_embree"] = *report.build_ratio_embree;
+        json["embree_bytes"] = *report.embree_bytes;
+    }
     for (const bench::TraceRow& row : report.rows) {
         ordered_json item{{"kind", row.kind},
                           {"rays", row.rays},
@@ -100,21 +139,25 @@ TextureImage white_texel(const std::filesystem::path&, bool) {
 
 void run(const BenchArguments& arguments) {
     bench::TraceBenchOptions options = arguments.options;
+    options.height = options.width * 3 / 4;
     options.embree = !arguments.no_embree;
     LoadOptions load = load_options(arguments.asset_paths);
     load.load_texture = white_texel;
 
+    options.layouts = kLayouts.at(arguments.layout);
+    options.qualities = kQualities.at(arguments.quality);
+
     device::Device device(arguments.device);
     fmt::print("{} ({})\n", device.info().name, device.info().driver);
     std::vector<bench::TraceReport> reports;
-    if (arguments.scenes.empty()) {
-        reports.push_back(bench::measure_tracing(device, bench::made_up_scene(), options));
-        print_report(reports.back());
-    }
-    for (const std::string& file : arguments.scenes) {
-        reports.push_back(bench::measure_tracing(device, load_scene(file, load), options));
-        print_report(reports.back());
-    }
+    const auto measure = [&](const Scene& scene) {
+        for (const bench::TraceReport& report : bench::measure_tracing(device, scene, options)) {
+            print_report(report);
+            reports.push_back(report);
+        }
+    };
+    if (arguments.scenes.empty()) measure(bench::made_up_scene());
+    for (const std::string& file : arguments.scenes) measure(load_scene(file, load));
     print_mean_ratio(reports);
     if (!arguments.json_file.empty()) write_json(arguments.json_file, device, reports);
 }
@@ -135,11 +178,25 @@ void register_bench(CLI::App& app) {
     command->add_option("--repeats", arguments->options.repeats, "Timed runs of each kind of ray")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    command
+        ->add_option("--bvh", arguments->layout,
+                     "Layout of the tree: auto, wide, compressed, binary or all")
+        ->check(CLI::IsMember(kLayouts))
+        ->capture_default_str();
+    command->add_option("--bvh-quality", arguments->quality, "medium, high (spatial splits) or all")
+        ->check(CLI::IsMember(kQualities))
+        ->capture_default_str();
+    command->add_option("--size", arguments->options.width, "Primary rays along the film's width")
+        ->check(CLI::Range(16, 16384))
+        ->capture_default_str();
     command->add_option("--local-size", arguments->options.local_size,
                         "Work-group size; 0: what suits the device");
     command->add_option("--json", arguments->json_file, "Write the numbers to this file");
     command->add_flag("--no-embree", arguments->no_embree, "Do not measure Embree");
     command->callback([arguments] { run(*arguments); });
+#if WEDGE_WITH_IMAGE
+    register_bench_converge(*group);
+#endif
 }
 
 }  // namespace wedge::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "host/cli/layers.hpp"
@@ -54,6 +55,15 @@ Pixel parse_pixel(const std::string& text) {
     return Pixel{n[0], n[1]};
 }
 
+/// By hand: the parser of options would take -1, and numbers too large, for the largest.
+uint64_t parse_seed(const std::string& text) {
+    uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error != std::errc{} || end != text.data() + text.size())
+        refuse("--seed: must be a whole number from 0 to 18446744073709551615, got " + text);
+    return seed;
+}
+
 Method parse_method(const std::string& name) {
     if (name == "mc") return Method::mc;
     if (name == "aaf") return Method::aaf;
@@ -96,7 +106,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.bounces = arguments.bounces;
     job.options.time_limit_s = arguments.time_s;
     if (!arguments.crop.empty()) job.options.crop = parse_crop(arguments.crop);
-    job.options.seed = arguments.seed;
+    job.options.seed = parse_seed(arguments.seed);
     job.options.sample_offset = arguments.sample_offset;
     job.options.sampler = parse_sampler(arguments.sampler);
     job.options.method = parse_method(arguments.method);

@@ -26,7 +26,8 @@ struct RenderArguments {
     std::string tone = "srgb";
     std::optional<int> spp, bounces;
     std::optional<double> time_s;
-    uint32_t seed = 0, sample_offset = 0, local_size = 0, tile_pixels = 0;
+    std::string seed = "0";
+    uint32_t sample_offset = 0, local_size = 0, tile_pixels = 0;
     std::string device, kernel_dir;
     bool quiet = false;
 };

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "host/image/exr_header.hpp"
 #include "wedge/error.hpp"
 
 namespace wedge::image {
@@ -79,6 +80,7 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
 
 DecodedImage decode(const fs::path& file, bool keep_bytes) {
     require_file(file);
+    if (const std::string flaw = flaw_of_exr_header(file); !flaw.empty()) fail(file, flaw);
     const auto input = open(file);
     DecodedImage image;
     image.spec = input->spec();

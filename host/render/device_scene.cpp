@@ -62,22 +62,22 @@ TexelData pack_textures(const std::vector<Texture>& textures) {
 }  // namespace
 
 cl_uint DeviceScene::set_args(cl::Kernel& kernel, cl_uint first) const {
+    first = tree.set_args(kernel, first);
     for (const cl::Buffer* buffer :
-         {&nodes, &blocks, &vertices, &triangles, &materials, &textures, &texels, &lights})
+         {&vertices, &triangles, &materials, &textures, &texels, &lights})
         kernel.setArg(first++, *buffer);
     kernel.setArg(first++, light_count);
     return first;
 }
 
 DeviceScene upload_scene(device::Device& device, const FlatScene& flat, const bvh::Bvh& bvh,
-                         const std::vector<Texture>& textures) {
+                         const std::vector<Texture>& textures, const BvhOptions& options) {
     const auto upload = [&device](const auto& items, const char* what) {
         return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), what);
     };
     const TexelData texel_data = pack_textures(textures);
     DeviceScene scene;
-    scene.nodes = upload(bvh.nodes, "BVH nodes");
-    scene.blocks = upload(bvh.blocks, "BVH triangles");
+    scene.tree = upload_tree(device, bvh, options);
     scene.vertices = upload(flat.vertices, "vertices");
     scene.triangles = upload(flat.shading, "triangles");
     scene.materials = upload(flat.materials, "materials");

@@ -5,12 +5,14 @@
 
 #include "host/bvh/bvh.hpp"
 #include "host/device/device.hpp"
+#include "host/render/device_tree.hpp"
 #include "host/render/flatten.hpp"
 
 namespace wedge::rendering {
 
 struct DeviceScene {
-    cl::Buffer nodes, blocks, vertices, triangles, materials, textures, texels, lights;
+    DeviceTree tree;
+    cl::Buffer vertices, triangles, materials, textures, texels, lights;
     cl_uint light_count = 0;
 
     /// Sets WEDGE_SCENE_PARAMS (kernels/lib/scene.clh) from argument `first` on; returns the next
@@ -20,6 +22,6 @@ struct DeviceScene {
 
 /// Throws Error(device) where something does not fit.
 DeviceScene upload_scene(device::Device& device, const FlatScene& flat, const bvh::Bvh& bvh,
-                         const std::vector<Texture>& textures);
+                         const std::vector<Texture>& textures, const BvhOptions& options = {});
 
 }  // namespace wedge::rendering

@@ -22,6 +22,8 @@ shared::SurfaceMaterial to_device(const Material& m) {
     out.diffuse_texture = m.diffuse_texture;
     out.specular_texture = m.specular_texture;
     out.emission_texture = m.emission_texture;
+    out.bump_texture = m.bump_texture;
+    out.normal_texture = m.bump_texture < 0 ? m.normal_texture : -1;
     out.model = !shines                           ? WEDGE_MODEL_LAMBERT
                 : m.model == SpecularModel::phong ? WEDGE_MODEL_PHONG
                                                   : WEDGE_MODEL_BLINN_PHONG;

@@ -92,6 +92,8 @@ void PathTracer::compile(const Plan& plan, const PathSettings& settings, Recordi
     Stopwatch watch;
     device::ProgramRequest request = plan.path_program;
     if (recording == Recording::on) request.defines.push_back("WEDGE_REPLAY=1");
+    request.defines.insert(request.defines.end(), scene_.tree.defines.begin(),
+                           scene_.tree.defines.end());
     const auto programs =
         device::build_programs(device_, std::span(&request, 1), settings.kernel_dir);
     kernel_ = programs[0].kernel("trace_paths");

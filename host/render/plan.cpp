@@ -38,11 +38,13 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
         plan.specular |= m.model != SpecularModel::none && m.specular != Vec3(0);
         plan.textures |=
             m.diffuse_texture >= 0 || m.specular_texture >= 0 || m.emission_texture >= 0;
+        plan.normal_maps |= m.normal_texture >= 0 || m.bump_texture >= 0;
     }
     plan.path_program.file = "kernels/path.cl";
     plan.path_program.defines = {"WEDGE_SAMPLE_BATCH=" + std::to_string(kSampleBatch)};
     if (plan.specular) plan.path_program.defines.push_back("WEDGE_SPECULAR=1");
     if (plan.textures) plan.path_program.defines.push_back("WEDGE_TEXTURES=1");
+    if (plan.normal_maps) plan.path_program.defines.push_back("WEDGE_NORMAL_MAPS=1");
     if (method == Method::aaf) {
         plan.shadow_lights = count_shadow_lights(scene);
         plan.hemisphere = bounces > 0 || scene.background != Vec3(0);

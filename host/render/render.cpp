@@ -21,9 +21,8 @@ namespace {
 
 using namespace rendering;
 
-void count_film(const std::vector<shared::FilmPixel>& film, const PathSettings& settings,
+void count_film(const std::vector<shared::FilmPixel>& film, const Rect& crop, uint64_t seed,
                 RenderStats& stats) {
-    const Rect& crop = settings.crop;
     constexpr std::size_t kNamed = 4;
     std::vector<std::string> places;
     for (std::size_t i = 0; i < film.size(); ++i) {
@@ -39,7 +38,7 @@ void count_film(const std::vector<shared::FilmPixel>& film, const PathSettings& 
         log_warning(
             fmt::format("{} samples were not finite and have been dropped, first at pixel {}, seed "
                         "{}; look at one with --pixel X,Y",
-                        stats.non_finite_samples, fmt::join(places, " and "), settings.seed));
+                        stats.non_finite_samples, fmt::join(places, " and "), seed));
 }
 
 void add_metadata(Image& image, const Scene& scene, const RenderOptions& options,
@@ -154,7 +153,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     std::vector<shared::FilmPixel> film = tracer.read_film();
     const std::vector<NamedChannel> layers = filter_layers(filtered, film);
     replace_unfiltered(film, filtered);
-    count_film(film, settings, frame.stats);
+    count_film(film, settings.crop, options.seed, frame.stats);
     frame.image = film_to_image(film, scene.film, settings.crop);
     add_channels(frame.image, layers, settings.crop);
     add_metadata(frame.image, scene, options, frame.stats, settings);

@@ -22,6 +22,14 @@ constexpr int kOpenEndedStrata = 16;
     throw Error(ErrorKind::usage, message);
 }
 
+/// Seeds of more than 32 bits become one of 2^32; smaller ones stay themselves.
+uint32_t folded(uint64_t seed) {
+    const uint64_t high = seed >> 32;
+    // Steele, Lea, Flood 2014: the increment and a multiplier of SplitMix64.
+    const uint64_t mixed = (high * 0x9e3779b97f4a7c15u ^ high >> 7) * 0xbf58476d1ce4e5b9u;
+    return uint32_t(seed ^ mixed >> 32);
+}
+
 Rect checked_crop(const Film& film, const std::optional<Rect>& crop) {
     if (!crop) return {0, 0, film.width, film.height};
     const bool inside = crop->x >= 0 && crop->y >= 0 && crop->width > 0 && crop->height > 0 &&
@@ -68,7 +76,7 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
         if (options.sample_offset != 0)
             refuse("the method aaf decides its samples itself: no sample offset");
     }
-    settings.seed = options.seed;
+    settings.seed = folded(options.seed);
     settings.sampler = options.sampler;
     const bool open_ended = options.time_limit_s && !options.samples_per_pixel;
     settings.log2_samples =

@@ -75,7 +75,8 @@ void check_materials(const Scene& scene) {
         place.require_between(m.specular, 0, 1, "specular");
         place.require_between(Vec3(m.exponent), 0, kLargestExponent, "exponent");
         place.require_radiance(m.emission, "emission");
-        for (int texture : {m.diffuse_texture, m.specular_texture, m.emission_texture})
+        for (int texture : {m.diffuse_texture, m.specular_texture, m.emission_texture,
+                            m.normal_texture, m.bump_texture})
             place.require(texture < int(scene.textures.size()), "texture",
                           fmt::format("there is no texture {}", texture));
     }

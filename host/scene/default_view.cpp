@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "host/scene/lit_view.hpp"
 #include "host/scene/probe.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
@@ -17,6 +18,9 @@ constexpr int kProbeRays = 64;
 /// Larger models are not probed: it would take seconds, and they are scans of objects.
 constexpr std::size_t kMostProbedTriangles = 3'000'000;
 
+/// Larger ones are not searched for lit sides: it takes many more rays.
+constexpr std::size_t kMostLitTriangles = 500'000;
+
 constexpr float kObjectFov_rad = 0.7f;
 constexpr float kInteriorFov_rad = 1.05f;
 constexpr float kMargin = 1.1f;  ///< room left around a framed model
@@ -25,6 +29,8 @@ constexpr double kDim = 0.1;
 /// What a made-up light gives at the place it is meant for: white paper then sends out about 1.
 constexpr float kIrradiance = kPi;
 constexpr float kBackground = 0.25f;
+/// Irradiance by a model's own lamps below which it is shown brighter.
+constexpr float kDimIrradiance = 0.25f;
 
 bool hit(const ProbeHit& h) {
     return std::isfinite(h.distance);
@@ -206,8 +212,37 @@ double own_irradiance(const Scene& scene, const Bounds& box) {
     return power / (2 * (e.x * e.y + e.y * e.z + e.z * e.x));
 }
 
+/// From the front and right, a little above; where that shows hardly anything lit though the model
+/// has lamps (the back of a backdrop, most often), from another side.
+Camera object_camera(const Scene& scene, const Bounds& box, bool has_light) {
+    const std::array<Vec3, 4> sides{Vec3(0.55f, 0.4f, 1), Vec3(-0.55f, 0.4f, 1),
+                                    Vec3(0.55f, 0.4f, -1), Vec3(-0.55f, 0.4f, -1)};
+    Camera best;
+    int most_lit = -1;
+    for (const Vec3& side : sides) {
+        const Camera camera = looking_from(box, glm::normalize(side), kObjectFov_rad, scene.film);
+        if (!has_light) return camera;
+        const ViewLight view = look_for_light(scene, camera);
+        const int lit = view.lit + view.shining;
+        // The usual side stays unless another shows twice as much.
+        if (most_lit >= 0 && lit <= 2 * most_lit) continue;
+        best = camera;
+        most_lit = lit;
+    }
+    return best;
+}
+
 std::string shown(const Vec3& v) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", v.x, v.y, v.z);
+}
+
+/// Lamps of a model are as bright as their author's program showed them; ours shows what they give.
+void expose_dim_light(Scene& scene, const ViewLight& view) {
+    if (!(view.irradiance > 0) || view.irradiance >= kDimIrradiance) return;
+    constexpr float kMostStops = 10;
+    scene.defaults.exposure = std::min(kMostStops, std::round(-std::log2(view.irradiance)));
+    log_info(fmt::format("{}: its light is dim; images for the eye are exposed by {:+} stops",
+                         scene.name, scene.defaults.exposure));
 }
 
 }  // namespace
@@ -220,23 +255,26 @@ void add_default_view(Scene& scene) {
                     scene.name + ".obj: empty mesh: no triangle with finite vertices and an area");
 
     const std::optional<Vec3> interior = find_interior(mesh, box);
-    // From the front and right, a little above.
-    const Vec3 three_quarters = glm::normalize(Vec3(0.55f, 0.4f, 1));
+    const bool bright = own_irradiance(scene, box) >= kDim;
+    const bool can_look = bright && mesh.triangles.size() <= kMostLitTriangles;
     scene.camera = interior ? interior_camera(mesh, box, *interior, scene.film)
-                            : looking_from(box, three_quarters, kObjectFov_rad, scene.film);
+                            : object_camera(scene, box, can_look);
     log_info(fmt::format("{}: no camera given; seen {} from {} towards {}", scene.name,
                          interior ? "as an interior" : "as an object", shown(scene.camera.position),
                          shown(scene.camera.target)));
 
-    if (own_irradiance(scene, box) >= kDim) return;
+    // Lamps may be there and yet hide from this view, or turn their backs.
+    const ViewLight view = can_look ? look_for_light(scene, scene.camera) : ViewLight{};
+    if (bright && 4 * (view.lit + view.shining) >= view.seen) return expose_dim_light(scene, view);
     scene.rect_lights.push_back(interior ? interior_light(mesh, box, *interior)
                                          : object_light(box, scene.camera));
     scene.background = Vec3(kBackground);
     const RectLight& light = scene.rect_lights.back();
     log_info(fmt::format(
-        "{}: no light to speak of; added a square of side {:.4g} at {}, radiance "
+        "{}: {}; added a square of side {:.4g} at {}, radiance "
         "{:.4g}, and a background of {}",
-        scene.name, glm::length(light.edge_u), shown(light.center), light.radiance.x, kBackground));
+        scene.name, bright ? "its light does not reach what is seen" : "no light to speak of",
+        glm::length(light.edge_u), shown(light.center), light.radiance.x, kBackground));
 }
 
 }  // namespace wedge::scene

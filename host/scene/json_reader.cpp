@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 #include "wedge/error.hpp"
 
 namespace wedge::scene {

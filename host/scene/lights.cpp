@@ -1,8 +1,9 @@
 #include "host/scene/lights.hpp"
 
+#include <algorithm>
 #include <numbers>
 
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 
 namespace wedge::scene {
 namespace {
@@ -10,11 +11,22 @@ namespace {
 /// Cosine of the angle between edges that are perpendicular but for the rounding of what was typed.
 constexpr double kPerpendicular = 1e-4;
 
+constexpr float kNarrowest = 1e-9f;
+
 LightProfile read_profile(const JsonView& view) {
     const std::string name = view.string();
     if (name == "uniform") return LightProfile::uniform;
     if (name == "gaussian") return LightProfile::gaussian;
     view.fail("unknown profile \"" + name + "\"" + suggestion(name, {"uniform", "gaussian"}));
+}
+
+float read_sigma(const JsonView& view, const RectLight& light) {
+    const float sigma = view.number(kPositive);
+    // As a fraction of a side it must not vanish: 0 there means uniform.
+    const float side = std::max(glm::length(light.edge_u), glm::length(light.edge_v));
+    if (sigma < kNarrowest * side)
+        view.fail("is less than 1e-9 of the light's side; use a point light");
+    return sigma;
 }
 
 void check_edges(const JsonView& view, const RectLight& light) {
@@ -42,7 +54,7 @@ RectLight read_rect(const JsonView& view) {
     if (const auto profile = view.find("profile")) light.profile = read_profile(*profile);
     const auto sigma = view.find("sigma");
     if (light.profile == LightProfile::gaussian)
-        light.sigma = view.require("sigma").number(kPositive);
+        light.sigma = read_sigma(view.require("sigma"), light);
     else if (sigma)
         sigma->fail("belongs to the profile \"gaussian\"");
 

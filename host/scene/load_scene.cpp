@@ -16,8 +16,7 @@ Scene load_model(const std::filesystem::path& file, const LoadOptions& options) 
     Scene scene;
     scene.name = file.stem().string();
     scene::TextureSet textures(scene, options);
-    scene.meshes.push_back(
-        scene::load_obj(file, scene::NormalsMode::automatic, scene, textures, options));
+    scene.meshes.push_back(scene::load_obj(file, scene::ObjOptions{}, scene, textures, options));
     scene.instances.push_back({});
     scene::conserve_energy(scene.materials, file.string());
     textures.report();

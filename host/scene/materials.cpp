@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 #include "wedge/log.hpp"
 
 namespace wedge::scene {
@@ -19,9 +19,15 @@ SpecularModel read_model(const JsonView& view) {
               suggestion(name, {"lambert", "phong", "blinn_phong"}));
 }
 
-TextureEdit read_texture(const JsonView& view) {
+bool bends_normals(TextureRole role) {
+    return role == TextureRole::normal || role == TextureRole::height;
+}
+
+TextureEdit read_texture(const JsonView& view, TextureRole role) {
     if (view.is_null()) return {};
     TextureUse use;
+    use.role = role;
+    use.is_color = !bends_normals(role);
     if (view.is_string()) {
         use.file = view.string();
     } else {
@@ -30,7 +36,8 @@ TextureEdit read_texture(const JsonView& view) {
         if (const auto scale = view.find("scale"))
             use.scale = scale->is_number() ? Vec2(scale->number()) : scale->vec2();
         if (const auto offset = view.find("offset")) use.offset = offset->vec2();
-        if (const auto gain = view.find("gain")) use.gain = gain->number(kNotNegative);
+        if (const auto gain = view.find("gain"))
+            use.gain = gain->number(bends_normals(role) ? kAnyNumber : kNotNegative);
         if (const auto base = view.find("base")) use.base = base->number(kNotNegative);
         if (const auto clamp = view.find("clamp")) use.clamp = clamp->boolean();
         if (const auto color = view.find("color")) use.is_color = color->boolean();
@@ -41,18 +48,21 @@ TextureEdit read_texture(const JsonView& view) {
 
 MaterialEdit read_material(const JsonView& view) {
     view.allow_only({"kd", "ks", "exponent", "model", "kd_texture", "ks_texture", "emission",
-                     "emission_texture"});
+                     "emission_texture", "normal_texture", "bump_texture"});
     MaterialEdit edit;
     if (const auto kd = view.find("kd")) edit.diffuse = kd->color(kUnit);
     if (const auto ks = view.find("ks")) edit.specular = ks->color(kUnit);
     if (const auto emission = view.find("emission")) edit.emission = emission->color();
     if (const auto m = view.find("exponent")) edit.exponent = m->number({0, kLargestExponent});
     if (const auto model = view.find("model")) edit.model = read_model(*model);
-    if (const auto texture = view.find("kd_texture")) edit.diffuse_texture = read_texture(*texture);
-    if (const auto texture = view.find("ks_texture"))
-        edit.specular_texture = read_texture(*texture);
-    if (const auto texture = view.find("emission_texture"))
-        edit.emission_texture = read_texture(*texture);
+    const auto texture = [&](const char* key, TextureRole role, std::optional<TextureEdit>& out) {
+        if (const auto member = view.find(key)) out = read_texture(*member, role);
+    };
+    texture("kd_texture", TextureRole::reflectance, edit.diffuse_texture);
+    texture("ks_texture", TextureRole::reflectance, edit.specular_texture);
+    texture("emission_texture", TextureRole::emission, edit.emission_texture);
+    texture("normal_texture", TextureRole::normal, edit.normal_texture);
+    texture("bump_texture", TextureRole::height, edit.bump_texture);
 
     const bool shines = edit.specular && *edit.specular != Vec3(0);
     if (edit.model == SpecularModel::none && shines)
@@ -76,6 +86,8 @@ void apply(const MaterialEdit& edit, Material& material, TextureSet& textures,
     texture(edit.diffuse_texture, material.diffuse_texture);
     texture(edit.specular_texture, material.specular_texture);
     texture(edit.emission_texture, material.emission_texture);
+    texture(edit.normal_texture, material.normal_texture);
+    texture(edit.bump_texture, material.bump_texture);
 
     // A texture multiplies a constant: where only the texture is given, the constant is 1.
     const auto constant = [](const std::optional<Vec3>& given, int new_texture,

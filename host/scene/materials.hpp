@@ -28,6 +28,7 @@ struct MaterialEdit {
     std::optional<float> exponent;
     std::optional<SpecularModel> model;
     std::optional<TextureEdit> diffuse_texture, specular_texture, emission_texture;
+    std::optional<TextureEdit> normal_texture, bump_texture;
 };
 using MaterialEdits = std::map<std::string, MaterialEdit>;
 

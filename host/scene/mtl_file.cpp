@@ -7,6 +7,7 @@
 
 #include "host/scene/asset_search.hpp"
 #include "host/scene/materials.hpp"
+#include "host/scene/mtl_text.hpp"
 #include "wedge/log.hpp"
 
 namespace wedge::scene {
@@ -22,15 +23,25 @@ Vec3 color(const tinyobj::real_t (&rgb)[3]) {
     return result;
 }
 
-TextureUse texture_use(const std::string& file, const tinyobj::texture_option_t& options) {
+float finite(float value, float otherwise) {
+    return std::isfinite(value) ? value : otherwise;
+}
+
+TextureUse texture_use(const std::string& file, const tinyobj::texture_option_t& options,
+                       TextureRole role) {
     TextureUse use;
     use.file = file;
-    use.scale = {options.scale[0], options.scale[1]};
-    use.offset = {options.origin_offset[0], options.origin_offset[1]};
-    use.gain = options.contrast;
-    use.base = options.brightness;
+    use.role = role;
+    use.scale = {finite(options.scale[0], 1), finite(options.scale[1], 1)};
+    use.offset = {finite(options.origin_offset[0], 0), finite(options.origin_offset[1], 0)};
+    use.gain = finite(options.contrast, 1);
+    use.base = finite(options.brightness, 0);
     use.clamp = options.clamp;
     use.is_color = options.colorspace != "linear";
+    if (role == TextureRole::normal || role == TextureRole::height) {
+        use.is_color = false;
+        use.gain *= finite(options.bump_multiplier, 1);
+    }
     return use;
 }
 
@@ -38,9 +49,10 @@ TextureUse texture_use(const std::string& file, const tinyobj::texture_option_t&
 constexpr float kNeutral = 0.5f;
 
 Material convert(const tinyobj::material_t& mtl, const std::filesystem::path& file,
-                 TextureSet& textures) {
-    const auto texture = [&](const std::string& name, const tinyobj::texture_option_t& options) {
-        return name.empty() ? -1 : textures.add(texture_use(name, options), file);
+                 TextureSet& textures, bool normal_maps) {
+    const auto texture = [&](const std::string& name, const tinyobj::texture_option_t& options,
+                             TextureRole role = TextureRole::reflectance) {
+        return name.empty() ? -1 : textures.add(texture_use(name, options, role), file);
     };
     Material material;
     material.name = mtl.name;
@@ -51,7 +63,8 @@ Material convert(const tinyobj::material_t& mtl, const std::filesystem::path& fi
         material.diffuse = Vec3(material.diffuse_texture >= 0 ? 1 : kNeutral);
 
     material.emission = color(mtl.emission);
-    material.emission_texture = texture(mtl.emissive_texname, mtl.emissive_texopt);
+    material.emission_texture =
+        texture(mtl.emissive_texname, mtl.emissive_texopt, TextureRole::emission);
     if (material.emission_texture >= 0 && material.emission == Vec3(0)) material.emission = Vec3(1);
 
     // Illumination models 0 and 1 have no highlight, all others do.
@@ -63,6 +76,13 @@ Material convert(const tinyobj::material_t& mtl, const std::filesystem::path& fi
         material.specular = specular;
         material.specular_texture = texture(mtl.specular_texname, mtl.specular_texopt);
     }
+    if (!normal_maps) return material;
+    material.normal_texture = texture(mtl.normal_texname, mtl.normal_texopt, TextureRole::normal);
+    const int bump = texture(mtl.bump_texname, mtl.bump_texopt, TextureRole::height);
+    // Exporters without a keyword for normal maps put them where heights belong.
+    const bool normals = textures.looks_like_normals(bump);
+    if (normals && material.normal_texture < 0) material.normal_texture = bump;
+    material.bump_texture = normals ? -1 : bump;
     return material;
 }
 
@@ -101,7 +121,10 @@ bool MtlReader::operator()(const std::string&, std::vector<tinyobj::material_t>*
                             "paths; its materials are grey",
                             obj_.string(), line));
         for (const auto& file : files) {
-            std::istringstream stream(read_text(file, kLargestMtl_bytes));
+            std::string text = read_text(file, kLargestMtl_bytes);
+            const std::string flaws = describe_bad_numbers(text);
+            if (!flaws.empty()) log_warning(file.string() + flaws);
+            std::istringstream stream(std::move(text));
             std::string remarks;  // about duplicates and the like: nothing to act on
             tinyobj::LoadMtl(index_of, materials, &stream, &remarks, error);
             file_of_.resize(materials->size(), file);
@@ -112,11 +135,11 @@ bool MtlReader::operator()(const std::string&, std::vector<tinyobj::material_t>*
 
 std::vector<Material> convert_materials(const std::vector<tinyobj::material_t>& materials,
                                         const std::vector<std::filesystem::path>& file_of,
-                                        TextureSet& textures) {
+                                        TextureSet& textures, bool normal_maps) {
     std::vector<Material> result;
     std::vector<std::string> transparent;
     for (std::size_t i = 0; i < materials.size(); ++i) {
-        result.push_back(convert(materials[i], file_of[i], textures));
+        result.push_back(convert(materials[i], file_of[i], textures, normal_maps));
         if (is_transparent(materials[i])) transparent.push_back(materials[i].name);
     }
     if (!transparent.empty())

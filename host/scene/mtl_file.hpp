@@ -39,9 +39,9 @@ class MtlReader : public tinyobj::MaterialReader {
 };
 
 /// Materials of MTL in this renderer's terms. What has no counterpart (transparency) is warned
-/// about once for all.
+/// about once for all. `normal_maps`: false leaves bump and normal maps out.
 std::vector<Material> convert_materials(const std::vector<tinyobj::material_t>& materials,
                                         const std::vector<std::filesystem::path>& file_of,
-                                        TextureSet& textures);
+                                        TextureSet& textures, bool normal_maps);
 
 }  // namespace wedge::scene

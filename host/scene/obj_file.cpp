@@ -4,7 +4,9 @@
 #include <tiny_obj_loader.h>
 
 #include <limits>
+#include <new>
 #include <sstream>
+#include <stdexcept>
 
 #include "host/scene/asset_search.hpp"
 #include "host/scene/mtl_file.hpp"
@@ -48,6 +50,44 @@ bool is_sound(const ParsedObj& obj) {
     return true;
 }
 
+/// Not finite: overflowed, or written as no number.
+void warn_of_non_finite(const ParsedObj& obj, const ObjFacts& facts, std::string_view text,
+                        const std::filesystem::path& file) {
+    std::size_t count = 0, first = 0;
+    const auto& v = obj.attributes.vertices;
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+        if (std::isfinite(v[i]) && std::isfinite(v[i + 1]) && std::isfinite(v[i + 2])) continue;
+        if (count++ == 0) first = i / 3;
+    }
+    if (count)
+        log_warning(
+            fmt::format("{}:{}: {} vertices are not finite, this is the first; their triangles are "
+                        "not rendered",
+                        file.string(), line_of_vertex(text, first), count));
+    const auto warn = [&](const BadLines& bad, const char* what, const char* instead) {
+        if (bad.count)
+            log_warning(fmt::format("{}:{}: {} {} are no numbers, this is the first; {}",
+                                    file.string(), bad.first_line, bad.count, what, instead));
+    };
+    warn(facts.bad_normals, "normals", "the face's own are used");
+    warn(facts.bad_uvs, "texture coordinates", "0 is used");
+}
+
+/// The parser throws where a file makes it allocate what is not there.
+bool parse_text(std::istream& stream, MtlReader& mtl_reader, ParsedObj& obj, std::string& problem) {
+    std::string remarks;
+    try {
+        return tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &remarks, &problem,
+                                &stream, &mtl_reader, /*triangulate=*/false,
+                                /*default_vcols_fallback=*/false);
+    } catch (const std::bad_alloc&) {
+        problem = "it needs more memory than there is";
+    } catch (const std::length_error&) {
+        problem = "it names a size that cannot be";
+    }
+    return false;
+}
+
 ParsedObj parse(const std::filesystem::path& file, const LoadOptions& options) {
     std::string text = read_text(file, kLargestObj_bytes);
     const ObjFacts facts = scan_obj(text);
@@ -55,11 +95,8 @@ ParsedObj parse(const std::filesystem::path& file, const LoadOptions& options) {
 
     ParsedObj obj;
     std::istringstream stream(std::move(text));
-    std::string remarks, problem;
-    const bool parsed = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &remarks,
-                                         &problem, &stream, &mtl_reader, /*triangulate=*/false,
-                                         /*default_vcols_fallback=*/false);
-    const bool sound = parsed && is_sound(obj);
+    std::string problem;
+    const bool sound = parse_text(stream, mtl_reader, obj, problem) && is_sound(obj);
     if (!sound || facts.may_overflow) {
         const std::string what = describe_bad_face(stream.view());
         if (!what.empty()) throw Error(ErrorKind::bad_input, file.string() + what);
@@ -68,20 +105,13 @@ ParsedObj parse(const std::filesystem::path& file, const LoadOptions& options) {
                         file.string() + ": cannot be read as OBJ: " + problem);
     }
     obj.mtl_of = mtl_reader.file_of();
-    for (const BadCoordinate& bad : facts.bad_coordinates)
-        obj.attributes.vertices[3 * bad.vertex + std::size_t(bad.axis)] =
-            std::numeric_limits<float>::quiet_NaN();
+    for (const BadCoordinate& bad : facts.bad_coordinates) {
+        const std::size_t place = 3 * bad.vertex + std::size_t(bad.axis);
+        if (place < obj.attributes.vertices.size())
+            obj.attributes.vertices[place] = std::numeric_limits<float>::quiet_NaN();
+    }
+    warn_of_non_finite(obj, facts, stream.view(), file);
     return obj;
-}
-
-void warn_of_non_finite_vertices(const ParsedObj& obj, const std::filesystem::path& file) {
-    std::size_t count = 0;
-    const auto& v = obj.attributes.vertices;
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3)
-        count += !(std::isfinite(v[i]) && std::isfinite(v[i + 1]) && std::isfinite(v[i + 2]));
-    if (count)
-        log_warning(fmt::format("{}: {} vertices are not finite; their triangles are not rendered",
-                                file.string(), count));
 }
 
 /// Builds a mesh corner by corner; corners that agree in all three indices share a vertex.
@@ -179,11 +209,10 @@ bool build(const ParsedObj& obj, uint32_t first_material, Mesh& mesh) {
 
 }  // namespace
 
-Mesh load_obj(const std::filesystem::path& file, NormalsMode normals, Scene& scene,
+Mesh load_obj(const std::filesystem::path& file, const ObjOptions& how, Scene& scene,
               TextureSet& textures, const LoadOptions& options) {
     ParsedObj obj = parse(file, options);
-    warn_of_non_finite_vertices(obj, file);
-    if (normals != NormalsMode::automatic) {
+    if (how.normals != NormalsMode::automatic) {
         // Forgetting the file's normals lets corners that differ in nothing else share a vertex.
         obj.attributes.normals.clear();
         for (auto& shape : obj.shapes)
@@ -197,9 +226,10 @@ Mesh load_obj(const std::filesystem::path& file, NormalsMode normals, Scene& sce
         throw Error(
             ErrorKind::bad_input,
             file.string() + ": empty mesh: the file has no faces (lines that begin with f)");
-    if (normals == NormalsMode::smooth) make_smooth_normals(mesh);
+    if (how.normals == NormalsMode::smooth) make_smooth_normals(mesh);
 
-    for (Material& material : convert_materials(obj.materials, obj.mtl_of, textures))
+    for (Material& material :
+         convert_materials(obj.materials, obj.mtl_of, textures, how.normal_maps))
         scene.materials.push_back(std::move(material));
     if (any_without_material) {
         Material grey;

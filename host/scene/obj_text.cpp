@@ -5,32 +5,10 @@
 #include <charconv>
 #include <optional>
 
+#include "host/scene/words.hpp"
+
 namespace wedge::scene {
 namespace {
-
-constexpr std::string_view kBlank = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-/// Takes the first line off `text`.
-std::string_view take_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    return trimmed(line);
-}
-
-/// Takes the first word off a trimmed line.
-std::string_view take_word(std::string_view& line) {
-    const std::size_t end = line.find_first_of(kBlank);
-    const std::string_view word = line.substr(0, end);
-    line = end == std::string_view::npos ? std::string_view() : trimmed(line.substr(end));
-    return word;
-}
 
 bool looks_like_number(std::string_view word) {
     const std::size_t sign = !word.empty() && (word[0] == '+' || word[0] == '-');
@@ -43,6 +21,27 @@ void join_continued_lines(std::string& text) {
     for (std::size_t at = text.find("\\\r\n"); at != std::string::npos;
          at = text.find("\\\r\n", at))
         text.replace(at, 3, "   ");
+}
+
+/// A `\r` alone ends a line for the parser.
+void unify_line_ends(std::string& text) {
+    for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1))
+        if (at + 1 == text.size() || text[at + 1] != '\n') text[at] = '\n';
+}
+
+/// Whether the one word on the line that begins at `start` has a blank after it.
+bool has_blank_after(const std::string& text, std::size_t start) {
+    const std::size_t end = text.find_first_of(" \t\r\n", text.find_first_not_of(" \t", start));
+    return end != std::string::npos && (text[end] == ' ' || text[end] == '\t');
+}
+
+/// Counts a line of which one of the first `least` words, or any further, is no number.
+void count_bad(BadLines& bad, std::string_view line, int least, std::size_t line_number) {
+    bool sound = true;
+    for (int i = 0; i < 3 && sound && (i < least || !line.empty()); ++i)
+        sound = looks_like_number(take_word(line));
+    if (sound) return;
+    if (bad.count++ == 0) bad.first_line = line_number;
 }
 
 bool has_long_number(std::string_view line) {
@@ -94,21 +93,40 @@ std::optional<std::string> flaw(std::string_view corner, const Counts& so_far,
 }  // namespace
 
 ObjFacts scan_obj(std::string& text) {
+    unify_line_ends(text);
     join_continued_lines(text);
     ObjFacts facts;
-    std::size_t vertex = 0;
+    std::size_t vertex = 0, line_number = 0;
     for (std::string_view rest = text; !rest.empty();) {
+        const std::size_t start = std::size_t(rest.data() - text.data());
         std::string_view line = take_line(rest);
+        ++line_number;
         const std::string_view keyword = take_word(line);
         if (keyword == "mtllib" && !line.empty()) facts.mtllib_lines.emplace_back(line);
         if (keyword == "f" && !facts.may_overflow) facts.may_overflow = has_long_number(line);
-        if (keyword != "v") continue;
+        // Tags of subdivision surfaces and weights of skins are not rendered, and the parser
+        // believes any size and any index they claim: they become comments.
+        if (keyword == "t" || keyword == "vw") text[text.find(keyword[0], start)] = '#';
+        if (keyword == "vn") count_bad(facts.bad_normals, line, 3, line_number);
+        if (keyword == "vt") count_bad(facts.bad_uvs, line, 1, line_number);
+        // A bare `v` without a blank is no vertex to the parser.
+        if (keyword != "v" || (line.empty() && !has_blank_after(text, start))) continue;
         for (int axis = 0; axis < 3; ++axis)
             if (!looks_like_number(take_word(line)))
                 facts.bad_coordinates.push_back({vertex, axis});
         ++vertex;
     }
     return facts;
+}
+
+std::size_t line_of_vertex(std::string_view text, std::size_t vertex) {
+    std::size_t line_number = 0;
+    for (std::string_view rest = text; !rest.empty();) {
+        std::string_view line = take_line(rest);
+        ++line_number;
+        if (take_word(line) == "v" && vertex-- == 0) return line_number;
+    }
+    return 0;
 }
 
 std::string describe_bad_face(std::string_view text) {

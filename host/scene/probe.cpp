@@ -7,7 +7,8 @@ namespace wedge::scene {
 std::vector<ProbeHit> probe(const Mesh& mesh, const Vec3& origin,
                             const std::vector<Vec3>& directions) {
     std::vector<ProbeHit> hits(directions.size());
-    for (const UVec3& triangle : mesh.triangles) {
+    for (uint32_t number = 0; number < mesh.triangles.size(); ++number) {
+        const UVec3& triangle = mesh.triangles[number];
         const Vec3 a = mesh.positions[triangle.x] - origin;
         const Vec3 ab = mesh.positions[triangle.y] - origin - a;
         const Vec3 ac = mesh.positions[triangle.z] - origin - a;
@@ -23,7 +24,7 @@ std::vector<ProbeHit> probe(const Mesh& mesh, const Vec3& origin,
             const float u = -glm::dot(ac, across) / determinant;
             const float v = glm::dot(ab, across) / determinant;
             if (u >= 0 && v >= 0 && u + v <= 1)
-                hits[i] = {t, normal / glm::length(normal), determinant < 0};
+                hits[i] = {t, normal / glm::length(normal), determinant < 0, number};
         }
     }
     return hits;

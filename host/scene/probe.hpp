@@ -11,6 +11,7 @@ struct ProbeHit {
     float distance = INFINITY;  ///< in lengths of the direction; infinite where nothing is hit
     Vec3 normal{0};             ///< of the triangle's front, unit
     bool front = false;         ///< the front was hit
+    uint32_t triangle = ~0u;    ///< which; ~0 where nothing is hit
 };
 
 /// Nearest hits of rays from one point, by trying every triangle: for a few dozen rays, once.

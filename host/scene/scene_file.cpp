@@ -7,7 +7,7 @@
 #include <set>
 
 #include "host/scene/asset_search.hpp"
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 #include "host/scene/json_reader.hpp"
 #include "host/scene/lights.hpp"
 #include "host/scene/materials.hpp"
@@ -39,17 +39,18 @@ NormalsMode read_normals(const JsonView& view) {
 }
 
 Mesh read_obj_mesh(const JsonView& view, const Loading& loading) {
-    view.allow_only({"obj", "normals"});
+    view.allow_only({"obj", "normals", "normal_maps"});
     const JsonView obj = view.require("obj");
-    const auto normals = view.find("normals");
-    const NormalsMode mode = normals ? read_normals(*normals) : NormalsMode::automatic;
+    ObjOptions how;
+    if (const auto normals = view.find("normals")) how.normals = read_normals(*normals);
+    if (const auto maps = view.find("normal_maps")) how.normal_maps = maps->boolean();
     const auto found =
         find_file(obj.string(), search_order(loading.file, loading.options.asset_paths));
     if (!found)
         obj.fail("\"" + obj.string() +
                  "\" is not beside the scene nor in the asset paths; name the folder that holds it "
                  "with --asset-path or WEDGE_ASSETS");
-    return load_obj(*found, mode, loading.scene, loading.textures, loading.options);
+    return load_obj(*found, how, loading.scene, loading.textures, loading.options);
 }
 
 Mesh read_generated_mesh(const JsonView& view, const Loading& loading) {

@@ -10,6 +10,14 @@
 
 namespace wedge::scene {
 
+/// What the values of a texture stand for.
+enum class TextureRole {
+    reflectance,  ///< must lie in [0, 1]
+    emission,     ///< must not be negative
+    normal,       ///< directions
+    height,
+};
+
 /// A texture as a material names it. Defaults are those of a bare file name.
 struct TextureUse {
     std::string file;
@@ -19,6 +27,7 @@ struct TextureUse {
     float base = 0;
     bool clamp = false;
     bool is_color = true;  ///< 8-bit files hold sRGB
+    TextureRole role = TextureRole::reflectance;
 };
 
 /// Collects textures into Scene::textures. What cannot be had is warned about, once a file, and
@@ -34,9 +43,13 @@ class TextureSet {
     /// Says what was left out because no loader was given.
     void report() const;
 
+    /// Whether the image of a texture looks like unit normals in tangent space: most of its texels
+    /// are about one long and point off the surface. False for -1.
+    bool looks_like_normals(int texture) const;
+
   private:
     /// Fills `texture.image` from the file `texture.name`; false, after a warning, if it cannot.
-    bool load_image(Texture& texture, bool is_color);
+    bool load_image(Texture& texture, const TextureUse& use);
 
     Scene& scene_;
     const LoadOptions& options_;

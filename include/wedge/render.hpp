@@ -42,7 +42,7 @@ struct RenderOptions {
     std::optional<int> bounces;            ///< else the scene's
     std::optional<double> time_limit_s;    ///< stop at the first batch boundary after this
     std::optional<Rect> crop;              ///< other pixels are not rendered and stay 0
-    uint32_t seed = 0;
+    uint64_t seed = 0;
     uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
     Sampler sampler = Sampler::sobol;
     Method method = Method::mc;

@@ -60,6 +60,12 @@ struct Material {
     int diffuse_texture = -1;  ///< indices into Scene::textures, multiply the constants; -1: none
     int specular_texture = -1;
     int emission_texture = -1;
+    /// Both bend the shading normal and move nothing; where both are set, the bump map counts.
+    /// RGB in tangent space, n = 2 rgb - 1: +x along u, +y along v, z off the surface; the texture's
+    /// value_gain multiplies x and y, its value_base is not used.
+    int normal_texture = -1;
+    /// Heights by luminance: value 1 (after gain and base) is as high as a texel is wide.
+    int bump_texture = -1;
 };
 
 /// Triangles of one vertex set. Counter-clockwise seen from the front.

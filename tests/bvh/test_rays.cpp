@@ -119,7 +119,7 @@ TEST_CASE("length_of_the_direction_only_scales_t") {
 
 TEST_CASE("the_portable_lane_mask_gives_the_same_hits") {
     const Triangles soup = make_soup(2000, 9);
-    Tracer fast(soup), portable(soup, true);
+    Tracer fast(soup), portable(soup, {.portable = true, .bvh = {}});
     Random random(3);
     std::vector<PackedRay> rays;
     for (int i = 0; i < 100000; ++i)

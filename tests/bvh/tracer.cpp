@@ -1,17 +1,18 @@
 #include "tracer.hpp"
 
 #include <cstdlib>
+#include <map>
 
 namespace wedge::test {
 namespace {
 
-const device::Program& trace_program(bool portable) {
-    static std::vector<device::Program> programs = [] {
-        const std::vector<device::ProgramRequest> requests = {
-            {"kernels/trace.cl", {}}, {"kernels/trace.cl", {"WEDGE_PORTABLE_LANES=1"}}};
-        return device::build_programs(test_device(), requests, kernel_dir());
-    }();
-    return programs[portable ? 1 : 0];
+const device::Program& trace_program(const std::vector<std::string>& defines) {
+    static std::map<std::vector<std::string>, device::Program> programs;
+    const auto found = programs.find(defines);
+    if (found != programs.end()) return found->second;
+    const device::ProgramRequest request{"kernels/trace.cl", defines};
+    return programs[defines] =
+               device::build_programs(test_device(), {&request, 1}, kernel_dir()).front();
 }
 
 }  // namespace
@@ -30,22 +31,26 @@ device::Device& test_device() {
     return instance;
 }
 
-Tracer::Tracer(const Triangles& triangles, bool portable)
-    : tree_(bvh::build(triangles.positions, triangles.indices)),
-      nodes_(test_device().upload(std::span<const shared::BvhNode>(tree_.nodes), "nodes")),
-      blocks_(test_device().upload(std::span<const shared::TriangleBlock>(tree_.blocks), "blocks")),
-      closest_(trace_program(portable).kernel("trace_closest_rays")),
-      occluded_(trace_program(portable).kernel("trace_occluded_rays")) {}
+Tracer::Tracer(const Triangles& triangles, const TracerOptions& options)
+    : Tracer(bvh::build(triangles.positions, triangles.indices, options.bvh.quality), options) {}
+
+Tracer::Tracer(bvh::Bvh tree, const TracerOptions& options)
+    : tree_(std::move(tree)),
+      device_tree_(rendering::upload_tree(test_device(), tree_, options.bvh)) {
+    std::vector<std::string> defines = device_tree_.defines;
+    if (options.portable) defines.push_back("WEDGE_PORTABLE_LANES=1");
+    closest_ = trace_program(defines).kernel("trace_closest_rays");
+    occluded_ = trace_program(defines).kernel("trace_occluded_rays");
+}
 
 std::vector<PackedHit> Tracer::run(cl::Kernel& kernel, std::span<const PackedRay> rays) {
     device::Device& device = test_device();
     const cl::Buffer packed = device.upload(rays, "rays");
     const cl::Buffer found = device.allocate(rays.size() * sizeof(PackedHit), "hits");
-    kernel.setArg(0, nodes_);
-    kernel.setArg(1, blocks_);
-    kernel.setArg(2, packed);
-    kernel.setArg(3, found);
-    kernel.setArg(4, cl_uint(rays.size()));
+    cl_uint arg = device_tree_.set_args(kernel, 0);
+    kernel.setArg(arg++, packed);
+    kernel.setArg(arg++, found);
+    kernel.setArg(arg++, cl_uint(rays.size()));
     device.launch(kernel, rays.size());
     device.finish();
     std::vector<PackedHit> hits(rays.size());

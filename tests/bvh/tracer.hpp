@@ -8,6 +8,7 @@
 #include "host/bvh/bvh.hpp"
 #include "host/device/device.hpp"
 #include "host/device/program.hpp"
+#include "host/render/device_tree.hpp"
 #include "meshes.hpp"
 
 namespace wedge::test {
@@ -33,21 +34,27 @@ std::string kernel_dir();
 /// The device all tests of this program share.
 device::Device& test_device();
 
+struct TracerOptions {
+    bool portable = false;  ///< without the builtins of the processor
+    BvhOptions bvh;
+};
+
 class Tracer {
   public:
-    /// `portable`: without the builtins of the processor.
-    explicit Tracer(const Triangles& triangles, bool portable = false);
+    explicit Tracer(const Triangles& triangles, const TracerOptions& options = {});
+    explicit Tracer(bvh::Bvh tree, const TracerOptions& options = {});
     std::vector<PackedHit> closest(std::span<const PackedRay> rays) { return run(closest_, rays); }
     std::vector<PackedHit> occluded(std::span<const PackedRay> rays) {
         return run(occluded_, rays);
     }
     const bvh::Bvh& tree() const { return tree_; }
+    const rendering::DeviceTree& on_device() const { return device_tree_; }
 
   private:
     std::vector<PackedHit> run(cl::Kernel& kernel, std::span<const PackedRay> rays);
 
     bvh::Bvh tree_;
-    cl::Buffer nodes_, blocks_;
+    rendering::DeviceTree device_tree_;
     cl::Kernel closest_, occluded_;
 };
 

@@ -36,14 +36,17 @@ const std::vector<WrongCall> kWrongOptions{
     {{"--crop", "2147483647,0,2147483647,1"}, "reaches outside the film"},
     {{"--pixel", "32,0"}, "outside the film of 32x24 px"},
     {{"--pixel", "3"}, "expected X,Y"},
-    {{"--sampler", "lottery"}, "known: sobol, hash"},
+    {{"--sampler", "lottery"}, "known: sobol, stratified, hash"},
     {{"--tone", "sepia"}, "srgb"},
     {{"--aov", "N,nonsense"}, "nonsense: no such layer; known: "},
     {{"--sample-offset", "3"}, "must be a multiple of 4"},
     {{"-o", "image.tiff"}, "known: .exr, .png"},
     {{"-o", "image"}, "known: .exr, .png"},
     {{"--asset-path", "nowhere"}, "nowhere: not a folder"},
-    {{"--no-such-option"}, "--no-such-option"},
+    {{"--no-such-option"}, "--no-such-option: no such option of wedge render"},
+    {{"--exposre=1"}, "did you mean \"--exposure\"?"},
+    {{"--seed", "18446744073709551616"}, "--seed: must be a whole number from 0 to"},
+    {{"--seed", "1e3"}, "--seed: must be"},
     {{"second.json"}, "second.json"},
 };
 
@@ -75,6 +78,9 @@ TEST_CASE("wrong_commands_are_refused") {
     CHECK(bench.wedge({"info"}).exit_code == kUsage);
     CHECK(bench.wedge({"compare", "one.exr"}).exit_code == kUsage);
     CHECK(bench.wedge({"render"}).err_has("see wedge render --help"));
+    CHECK(bench.wedge({"rendr", "a.json"})
+              .err_has("rendr: no such command of wedge; did you mean \"render\"?"));
+    CHECK(bench.wedge({"bench", "trac"}).err_has("did you mean \"trace\"?"));
 }
 
 TEST_CASE("every_command_has_help") {

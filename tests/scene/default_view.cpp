@@ -122,3 +122,54 @@ TEST_CASE("flat_models_are_framed_too") {
     CHECK(std::isfinite(scene.camera.position.x));
     CHECK(scene.camera.position != scene.camera.target);
 }
+
+namespace {
+
+/// A floor of side 2, an upright sheet behind it (at `sheet_z`, as high as the floor is wide), and
+/// a lamp of half the floor's side that hangs over it and shines down with the given radiance.
+Scene stage(float sheet_z, float radiance) {
+    TempFolder folder;
+    LogCapture log;
+    char sheet[200];
+    std::snprintf(sheet, sizeof sheet, "v -1 0 %g\nv 1 0 %g\nv 1 2 %g\nv -1 2 %g\n", sheet_z,
+                  sheet_z, sheet_z, sheet_z);
+    folder.write("m.mtl", "newmtl grey\nKd 0.6 0.6 0.6\nnewmtl lamp\nKd 0 0 0\nKe " +
+                              std::to_string(radiance) + " " + std::to_string(radiance) + " " +
+                              std::to_string(radiance) + "\n");
+    return load_scene(folder.write(
+        "m.obj", "mtllib m.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\n" + std::string(sheet) +
+                     "v -0.5 2 -0.5\nv 0.5 2 -0.5\nv 0.5 2 0.5\nv -0.5 2 0.5\n"
+                     "usemtl grey\nf 1 2 3 4\nf 5 6 7 8\nusemtl lamp\nf 9 10 11 12\n"));
+}
+
+}  // namespace
+
+TEST_CASE("a_backdrop_is_seen_from_the_side_that_its_lamp_shines_upon") {
+    const Scene open_front = stage(-1, 10), open_back = stage(1, 10);
+    CHECK(open_front.rect_lights.empty());
+    CHECK(open_back.rect_lights.empty());
+    CHECK(open_front.camera.position.z > 0);
+    CHECK(open_back.camera.position.z < 0);
+    CHECK(open_front.defaults.exposure == 0);
+}
+
+TEST_CASE("dim_lamps_are_shown_brighter_by_what_they_lack") {
+    // The lamp, taken for a point, gives the middle of the floor 0.8 / 2^2, its corners a quarter
+    // of that.
+    const float stops = stage(-1, 0.8f).defaults.exposure;
+    CHECK(stops >= 2);  // 1 / 0.2 is 2.3 stops, 1 / 0.05 is 4.3
+    CHECK(stops <= 4);
+}
+
+TEST_CASE("lamps_that_shine_away_from_all_that_is_seen_get_help") {
+    // The lamp's front is up: nothing below it is lit.
+    TempFolder folder;
+    LogCapture log;
+    folder.write("m.mtl", "newmtl grey\nKd 0.6 0.6 0.6\nnewmtl lamp\nKd 0 0 0\nKe 99 99 99\n");
+    const Scene scene = load_scene(
+        folder.write("m.obj",
+                     "mtllib m.mtl\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -0.5 2 -0.5\nv 0.5 2 "
+                     "-0.5\nv 0.5 2 "
+                     "0.5\nv -0.5 2 0.5\nusemtl grey\nf 1 2 3 4\nusemtl lamp\nf 8 7 6 5\n"));
+    CHECK(scene.rect_lights.size() == 1);
+}

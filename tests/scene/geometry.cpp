@@ -1,5 +1,5 @@
 // Triangulation, smooth normals, and words that are near each other.
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 #include "host/scene/normals.hpp"
 #include "host/scene/probe.hpp"
 #include "host/scene/triangulate.hpp"

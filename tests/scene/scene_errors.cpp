@@ -177,6 +177,16 @@ TEST_CASE("transforms_can_be_inverted") {
         "", R"("instances": [{"mesh": "t", "transform": {"scale": [-1e-4, 1e-4, 1e-4]}}])")));
 }
 
+TEST_CASE("gaussians_too_narrow_for_single_precision_are_refused") {
+    const auto light = [](const std::string& sigma) {
+        return R"({"type": "rect", "center": [0,0,0], "u": [1,0,0], "v": [0,0,1], "radiance": 1,
+                   "profile": "gaussian", "sigma": )" +
+               sigma + "}";
+    };
+    CHECK(contains(error_of_light(light("1e-30")), "/lights/0/sigma: is less than 1e-9"));
+    CHECK_NOTHROW(load_text(scene_text("", "\"lights\": [" + light("1e-8") + "]")));
+}
+
 TEST_CASE("unknown_references_suggest_the_nearest") {
     CHECK(contains(error_of_member(R"("instances": [{"mesh": "tt"}])"),
                    "/instances/0/mesh: unknown mesh \"tt\"; did you mean \"t\"?"));

@@ -30,8 +30,10 @@ typedef struct SurfaceMaterial {
     float4 specular; /* rgb, w: exponent */
     int diffuse_texture, specular_texture, emission_texture;
     int model;
+    int normal_texture, bump_texture; /* -1: none; at most one is set */
+    int unused[2];
 } SurfaceMaterial;
-WEDGE_ASSERT_SIZE(SurfaceMaterial, 48);
+WEDGE_ASSERT_SIZE(SurfaceMaterial, 64);
 
 #define WEDGE_TEXTURE_SRGB8 0
 #define WEDGE_TEXTURE_LINEAR8 1

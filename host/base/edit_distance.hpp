@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace wedge::scene {
+namespace wedge {
 
 /// Levenshtein distance with swaps of neighbours counted as one edit (optimal string alignment).
 /// Words are cut at 256 characters, which bounds the work.
@@ -15,4 +15,4 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// Empty if nothing is known.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
-}  // namespace wedge::scene
+}  // namespace wedge

@@ -1,9 +1,9 @@
-#include "host/scene/edit_distance.hpp"
+#include "host/base/edit_distance.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-namespace wedge::scene {
+namespace wedge {
 namespace {
 
 constexpr std::size_t kLongestWord = 256;
@@ -63,4 +63,4 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     return list + (known.size() > kMostListed ? ", ..." : "");
 }
 
-}  // namespace wedge::scene
+}  // namespace wedge

@@ -1,0 +1,104 @@
+#include "bench/converge/methods.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wedge/error.hpp"
+
+namespace wedge::converge {
+namespace {
+
+using baselines::Filter;
+
+template <Sampler kSampler>
+void monte_carlo(RenderOptions& o) {
+    o.method = wedge::Method::mc;
+    o.sampler = kSampler;
+}
+
+template <wedge::Method kMethod>
+void by_method(RenderOptions& o) {
+    o.method = kMethod;
+}
+
+// The first unbiased method of a comparison is its yardstick.
+constexpr Method kMethods[] = {
+    {"mc-sobol", "Monte Carlo, Owen-scrambled Sobol", Knob::spp, false,
+     monte_carlo<Sampler::sobol>},
+    {"mc-stratified", "Monte Carlo, jittered strata", Knob::spp, false,
+     monte_carlo<Sampler::stratified>},
+    {"mc-hash", "Monte Carlo, independent samples", Knob::spp, false, monte_carlo<Sampler::hash>},
+    {"aaf", "axis-aligned filtering", Knob::mu, true, by_method<wedge::Method::aaf>},
+    {"mc+gaussian", "mc-sobol, Gaussian of 2 px", Knob::spp, true, monte_carlo<Sampler::sobol>,
+     Filter::gaussian},
+    {"mc+bilateral", "mc-sobol, cross-bilateral filter", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::bilateral},
+    {"mc+atrous", "mc-sobol, a-trous wavelets (Dammertz et al. 2010)", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::atrous},
+    {"mc+nlm", "mc-sobol, two-buffer non-local means (Rousselle et al. 2012)", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::nlm},
+    {"mc+svgf", "mc-sobol, spatial part of SVGF (Schied et al. 2017)", Knob::spp, true,
+     monte_carlo<Sampler::sobol>, Filter::svgf},
+};
+
+const char* name_of(wedge::Method method) {
+    return method == wedge::Method::mc ? "mc" : "aaf";
+}
+
+}  // namespace
+
+std::span<const Method> all_methods() {
+    return kMethods;
+}
+
+std::string method_names() {
+    std::string names;
+    for (const Method& method : kMethods)
+        names += (names.empty() ? "" : ", ") + std::string(method.name);
+    return names;
+}
+
+const Method& find_method(const std::string& name) {
+    const auto found = std::find_if(std::begin(kMethods), std::end(kMethods),
+                                    [&](const Method& m) { return name == m.name; });
+    if (found == std::end(kMethods))
+        throw Error(ErrorKind::usage,
+                    fmt::format("--methods {}: no such method; known: {}", name, method_names()));
+    return *found;
+}
+
+RenderOptions options_for(const Method& method, double value, uint32_t seed) {
+    RenderOptions options;
+    method.configure(options);
+    options.seed = seed;
+    if (method.knob == Knob::spp)
+        options.samples_per_pixel = int(std::max(1.0, std::round(value)));
+    else
+        options.mu = float(value);
+    return options;
+}
+
+nlohmann::json settings_json(const Method& method) {
+    RenderOptions options;
+    method.configure(options);
+    nlohmann::json settings = {{"method", name_of(options.method)},
+                               {"sampler", to_string(options.sampler)},
+                               {"sample_offset", options.sample_offset}};
+    if (method.filter) settings["filter"] = method.name;
+    if (method.knob == Knob::mu)
+        settings["samples_per_pixel"] =
+            options.samples_per_pixel ? nlohmann::json(*options.samples_per_pixel) : "by mu";
+    return settings;
+}
+
+std::string render_arguments(const RenderOptions& options) {
+    std::string text = fmt::format("--method {} --sampler {} --seed {}", name_of(options.method),
+                                   to_string(options.sampler), options.seed);
+    if (options.samples_per_pixel) text += fmt::format(" --spp {}", *options.samples_per_pixel);
+    if (options.method != wedge::Method::mc) text += fmt::format(" --mu {:g}", options.mu);
+    return text;
+}
+
+}  // namespace wedge::converge

@@ -1,0 +1,13 @@
+// The report: one HTML file that needs nothing else, neither network nor scripts.
+#pragma once
+
+#include <string>
+
+#include "bench/converge/analysis.hpp"
+
+namespace wedge::converge {
+
+/// Well-formed: every element is closed, as in XML.
+std::string report_html(const Config& config, const Analysis& analysis);
+
+}  // namespace wedge::converge

@@ -1,0 +1,212 @@
+#include "bench/converge/runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "bench/converge/calibration.hpp"
+#include "bench/converge/identity.hpp"
+#include "bench/converge/method_run.hpp"
+#include "host/device/device.hpp"
+#include "wedge/error.hpp"
+#include "wedge/image_io.hpp"
+
+namespace wedge::converge {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Task {
+    const Method* method;
+    Budget budget;
+    uint32_t seed;
+    std::string key;
+};
+
+/// Seeds outside, methods inside.
+std::vector<Task> all_tasks(const Config& config, const std::string& digest,
+                            const DeviceInfo& device) {
+    std::size_t rungs = 0;
+    for (const std::string& name : config.methods)
+        rungs = std::max(rungs, ladder(config, find_method(name)).size());
+    std::vector<Task> tasks;
+    for (int seed = 0; seed < config.seeds; ++seed)
+        for (std::size_t rung = 0; rung < rungs; ++rung)
+            for (const std::string& name : config.methods) {
+                const Method& method = find_method(name);
+                const std::vector<Budget> budgets = ladder(config, method);
+                if (rung < budgets.size())
+                    tasks.push_back(
+                        {&method, budgets[rung], uint32_t(seed),
+                         run_key(digest, method, budgets[rung], uint32_t(seed), device)});
+            }
+    return tasks;
+}
+
+/// The latest whole record of each key that may be used.
+std::map<std::string, RunRecord> finished_runs(const Config& config, const std::string& program) {
+    std::map<std::string, RunRecord> runs;
+    for (const nlohmann::json& line : read_lines(config.folder / "runs.jsonl")) {
+        try {
+            RunRecord record = run_record_from(line);
+            if (!config.any_build && record.program != program) continue;
+            if (fs::exists(config.folder / record.image)) runs[record.key] = std::move(record);
+        } catch (const nlohmann::json::exception&) {
+            // Of another version of this program: as if it were not there.
+        }
+    }
+    return runs;
+}
+
+/// What analysis and others who want to recompute need; variance only says something of unfiltered
+/// pixels.
+Image kept_layers(const Image& image, bool with_variance) {
+    std::vector<std::string> names{"R", "G", "B"};
+    if (with_variance) names.insert(names.end(), {"variance.R", "variance.G", "variance.B"});
+    Image kept{image.width, image.height, names, {}, image.metadata};
+    std::vector<std::size_t> from;
+    for (const std::string& name : names) from.push_back(std::size_t(image.channel(name)));
+    const std::size_t stride = image.channels.size();
+    for (std::size_t i = 0; i < image.pixels.size(); i += stride)
+        for (std::size_t channel : from) kept.pixels.push_back(image.pixels[i + channel]);
+    return kept;
+}
+
+void copy_stats(const RenderStats& stats, RunRecord& record) {
+    record.flatten_s = stats.flatten_s;
+    record.bvh_build_s = stats.bvh_build_s;
+    record.upload_s = stats.upload_s;
+    record.compile_s = stats.compile_s;
+    record.render_s = stats.render_s;
+    record.time_s = counted_seconds(stats);
+    record.passes = stats.passes;
+    record.rays = stats.rays;
+    record.samples = stats.samples;
+    record.non_finite_samples = stats.non_finite_samples;
+    record.device = stats.device.name;
+    record.driver = stats.device.driver;
+    record.platform = stats.device.platform + ", " + stats.device.platform_version;
+}
+
+class SceneRunner {
+  public:
+    SceneRunner(const Config& config, const Scene& scene, SceneRuns& out, const Say& say)
+        : config_(config), out_(out), say_(say), methods_(config, scene) {}
+
+    void run_missing() {
+        const std::string program = program_digest(config_.kernel_dir);
+        const device::Device device(config_.device);
+        std::map<std::string, RunRecord> done = finished_runs(config_, program);
+        const std::vector<Task> tasks = all_tasks(config_, out_.digest, device.info());
+        const auto missing = std::count_if(tasks.begin(), tasks.end(),
+                                           [&](const Task& t) { return !done.count(t.key); });
+        if (missing < std::ptrdiff_t(tasks.size()))
+            say_(fmt::format("{}: {} of {} runs are there from before", out_.name,
+                             tasks.size() - std::size_t(missing), tasks.size()));
+        std::ptrdiff_t number = 0;
+        for (const Task& task : tasks) {
+            auto found = done.find(task.key);
+            if (found == done.end()) {
+                ++number;
+                found = done.emplace(task.key, run(task, program)).first;
+                say_(fmt::format("{} {}/{}: {} {}={:g} seed {}: {:.3g} s", out_.name, number,
+                                 missing, task.method->name, name_of(task.budget.unit),
+                                 task.budget.value, task.seed, found->second.time_s));
+            }
+            knobs_[{task.method, task.budget.value}] = found->second.knob;
+            out_.runs.push_back(found->second);
+        }
+    }
+
+  private:
+    /// The first run of a method on a scene would pay for compiling what its passes launch late.
+    void warm_up(const Method& method) {
+        if (!warm_.insert(&method).second) return;
+        const double least =
+            method.knob == Knob::spp ? config_.budgets.spp.front() : config_.budgets.mu.front();
+        methods_.run(method, least, 0);
+    }
+
+    double knob_for(const Method& method, const Budget& budget) {
+        if (budget.unit != BudgetUnit::seconds) return budget.value;
+        if (const auto known = knobs_.find({&method, budget.value}); known != knobs_.end())
+            return known->second;
+        auto [calibration, is_new] = calibrations_.try_emplace(&method);
+        if (is_new)
+            calibration->second = calibrate(method.knob, [&](double knob) {
+                return counted_seconds(methods_.run(method, knob, 0).stats);
+            });
+        return knob_for_seconds(calibration->second, method.knob, budget.value);
+    }
+
+    RunRecord run(const Task& task, const std::string& program) {
+        const Method& method = *task.method;
+        warm_up(method);
+        const double knob = knob_for(method, task.budget);
+        const Frame frame = methods_.run(method, knob, task.seed);
+
+        RunRecord record;
+        record.key = task.key;
+        record.scene = out_.name;
+        record.scene_digest = out_.digest;
+        record.method = method.name;
+        record.budget = task.budget;
+        record.knob = knob;
+        record.seed = task.seed;
+        record.width = frame.image.width;
+        record.height = frame.image.height;
+        record.version = version();
+        record.program = program;
+        record.commit = built_from_commit();
+        record.settings = settings_json(method);
+        record.command = fmt::format("wedge render {} --size {}x{} --bounces {} {}", out_.file,
+                                     out_.film.width, out_.film.height, out_.bounces,
+                                     render_arguments(methods_.options(method, knob, task.seed))) +
+                         (method.filter ? fmt::format(" # then {}", method.name) : "");
+        copy_stats(frame.stats, record);
+        record.image = fmt::format("images/{}-{}-{}{:g}-seed{}-{}.exr", out_.name, method.name,
+                                   name_of(task.budget.unit), task.budget.value, task.seed,
+                                   task.key.substr(0, 8));
+        write_exr(config_.folder / record.image, kept_layers(frame.image, !method.biased));
+        append_line(config_.folder / "runs.jsonl", to_json(record).dump());
+        return record;
+    }
+
+    const Config& config_;
+    SceneRuns& out_;
+    const Say& say_;
+    MethodRunner methods_;
+    std::set<const Method*> warm_;
+    std::map<const Method*, Calibration> calibrations_;
+    std::map<std::pair<const Method*, double>, double> knobs_;
+};
+
+}  // namespace
+
+SceneRuns run_scene(const Config& config, const std::string& scene_file, const LoadOptions& load,
+                    const Say& say) {
+    Scene scene = load_scene(scene_file, load);
+    scene.film = film_for(config.size, scene.film);
+    if (config.bounces) scene.defaults.bounces = *config.bounces;
+    fs::create_directories(config.folder / "images");
+
+    SceneRuns out;
+    out.name = fs::path(scene_file).stem().string();
+    out.digest = digest_of(scene);
+    out.file = scene_file;
+    out.film = scene.film;
+    out.bounces = scene.defaults.bounces;
+    out.exposure = scene.defaults.exposure;
+    for (const Instance& instance : scene.instances)
+        out.triangles += scene.meshes[instance.mesh].triangles.size();
+    out.reference = make_reference(
+        scene, {config.references, out.name, out.digest, config.reference_spp,
+                config.reference_sampler, config.device, config.kernel_dir, config.stop, say});
+    SceneRunner(config, scene, out, say).run_missing();
+    return out;
+}
+
+}  // namespace wedge::converge

@@ -1,0 +1,78 @@
+#include "host/scene/mtl_text.hpp"
+
+#include <fmt/format.h>
+
+#include "host/scene/materials.hpp"
+#include "host/scene/words.hpp"
+
+namespace wedge::scene {
+namespace {
+
+constexpr std::size_t kMostListed = 3;
+
+/// What is wrong with the colour on a line, if anything.
+const char* flaw_of_color(std::string_view line) {
+    // Spectra and CIE coordinates have names of their own, and nobody writes them.
+    if (line.starts_with("spectral") || line.starts_with("xyz")) return nullptr;
+    for (int channel = 0; channel < 3 && !line.empty(); ++channel) {
+        const double value = number_in(take_word(line));
+        if (std::isnan(value)) return "no finite number; 0 is used";
+        if (value < 0) return "negative; 0 is used";
+    }
+    return nullptr;
+}
+
+const char* flaw_of_exponent(std::string_view line) {
+    const double value = number_in(take_word(line));
+    if (std::isnan(value)) return "no finite number; 0 is used";
+    if (value < 0) return "negative; 0 is used";
+    return value > kLargestExponent ? "above 1000000, which is used" : nullptr;
+}
+
+/// Options come first and the file name, which may hold blanks, last.
+const char* flaw_of_texture(std::string_view line) {
+    while (line.starts_with('-')) {
+        const std::string_view option = take_word(line);
+        int numbers = option == "-s" || option == "-o" || option == "-t" ? 3
+                      : option == "-mm"                                  ? 2
+                      : option == "-bm" || option == "-boost"            ? 1
+                                                                         : 0;
+        if (numbers == 0) take_word(line);
+        // Fewer than three are allowed, and then the file name follows.
+        for (bool first = true; numbers > 0; --numbers, first = false) {
+            std::string_view rest = line;
+            const bool is_number = !std::isnan(number_in(take_word(rest)));
+            if (!is_number && first) return "no finite number; the option's default is used";
+            if (!is_number) break;
+            line = rest;
+        }
+    }
+    return nullptr;
+}
+
+const char* flaw_of(std::string_view keyword, std::string_view line) {
+    if (keyword == "Kd" || keyword == "Ks" || keyword == "Ke") return flaw_of_color(line);
+    if (keyword == "Ns") return flaw_of_exponent(line);
+    const bool texture = keyword.starts_with("map_") || keyword == "bump" || keyword == "norm";
+    return texture ? flaw_of_texture(line) : nullptr;
+}
+
+}  // namespace
+
+std::string describe_bad_numbers(std::string_view mtl) {
+    std::string list;
+    std::size_t number = 0, flaws = 0;
+    for (std::string_view rest = mtl; !rest.empty();) {
+        std::string_view line = take_line(rest);
+        const std::string_view whole = line;
+        ++number;
+        const char* flaw = flaw_of(take_word(line), line);
+        if (flaw && ++flaws <= kMostListed)
+            list += fmt::format("{}:{}: {}: {}", flaws > 1 ? "; " : "", number, whole.substr(0, 60),
+                                flaw);
+    }
+    if (flaws > kMostListed) list += fmt::format("; and {} more lines", flaws - kMostListed);
+    return list;
+}
+
+}  // namespace wedge::scene
