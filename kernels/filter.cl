@@ -152,11 +152,11 @@ inline void merge_halves(__global float4* sums, __global HalfLight* unfiltered) 
     unfiltered->direct[1] = unfiltered->indirect[1] = (float4)(0.0f);
 }
 
-inline float emitted(__global const FilmPixel* p) {
+inline float mean_emission(__global const FilmPixel* p) {
     return luminance(p->emission.xyz) / fmax(p->position.w, 1.0f);
 }
 
-inline float reflectance(__global const FilmPixel* p) {
+inline float mean_reflectance(__global const FilmPixel* p) {
     return luminance(p->albedo.xyz) / fmax(p->normal.w, 1.0f);
 }
 
@@ -168,11 +168,11 @@ inline bool shows_edge(__global const FilmPixel* film, __global const SurfaceSum
     const int id = y * width + x;
     if (surfaces[id * WEDGE_SURFACES].position.w != film[id].normal.w)
         return film[id].emission.w > 0.0f;
-    const float e = emitted(film + id), r = reflectance(film + id);
+    const float e = mean_emission(film + id), r = mean_reflectance(film + id);
     for (int k = 0; k < 4; ++k) {
         const int i = x + (k == 0) - (k == 1), j = y + (k == 2) - (k == 3);
         if (i < 0 || i >= width || j < 0 || j >= height) continue;
-        const float other_e = emitted(film + j * width + i), other_r = reflectance(film + j * width + i);
+        const float other_e = mean_emission(film + j * width + i), other_r = mean_reflectance(film + j * width + i);
         if (fabs(e - other_e) > WEDGE_SAME_COLOUR * fmax(e, other_e)) return true;
         if (fabs(r - other_r) > WEDGE_SAME_COLOUR * fmax(r, other_r)) return true;
     }

@@ -28,6 +28,7 @@ void set_up(CLI::App& app) {
     register_render(app);
     register_devices(app);
     register_info(app);
+    register_explain(app);
     register_compare_if_supported(app);
     register_bench(app);
 }

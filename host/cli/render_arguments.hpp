@@ -20,7 +20,7 @@ struct RenderArguments {
     std::vector<std::string> asset_paths;
     std::string size, crop, pixel;
     std::string sampler = "sobol", method = "mc";
-    float mu = 2;
+    float mu = 1;
     std::string stats_file;
     std::optional<float> exposure;
     std::string tone = "srgb";

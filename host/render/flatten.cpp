@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "host/render/lights.hpp"
+#include "host/render/shining_rects.hpp"
 #include "wedge/error.hpp"
 
 namespace wedge::rendering {
@@ -55,13 +58,17 @@ void append_triangle(FlatScene& flat, const UVec3& t, uint32_t material, int lig
     flat.shading.push_back({t.x, t.y, t.z, material, light});
 }
 
+/// Lights of those triangles of an instance that make rectangles, in order.
+using TriangleLights = std::vector<std::pair<std::size_t, int>>;
+
 void append_instance(FlatScene& flat, const Scene& scene, const Instance& instance,
-                     LightList& lights) {
+                     const TriangleLights& rects, LightList& lights) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const auto base = uint32_t(flat.positions.size());
     append_vertices(flat, mesh, instance.transform);
     // A mirrored instance would turn its triangles inside out.
     const bool mirrored = glm::determinant(glm::mat3(instance.transform)) < 0;
+    auto next_rect = rects.begin();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         UVec3 t = mesh.triangles[i] + base;
         if (mirrored) std::swap(t.y, t.z);
@@ -70,7 +77,9 @@ void append_instance(FlatScene& flat, const Scene& scene, const Instance& instan
                                       : (mesh.material_of.empty() ? 0u : mesh.material_of[i]);
         const Material& m = scene.materials[material];
         int light = -1;
-        if (m.emission != Vec3(0))
+        if (next_rect != rects.end() && next_rect->first == i)
+            light = (next_rect++)->second;
+        else if (m.emission != Vec3(0))
             light = lights.add_triangle(flat.positions[t.x], flat.positions[t.y],
                                         flat.positions[t.z], m, uint32_t(flat.triangles.size()));
         append_triangle(flat, t, material, light);
@@ -112,17 +121,28 @@ FlatScene flatten(const Scene& scene) {
     LightList lights;
     for (const Material& m : scene.materials) flat.materials.push_back(to_device(m));
     // First and by power: the first rectangles are those whose shadows can be filtered.
+    const std::vector<ShiningRect> shining = find_shining_rects(scene);
     std::vector<RectLight> rects = scene.rect_lights;
-    std::stable_sort(rects.begin(), rects.end(), [](const RectLight& a, const RectLight& b) {
-        return light_power(a) > light_power(b);
+    for (const ShiningRect& rect : shining) rects.push_back(rect.light);
+    std::vector<std::size_t> order(rects.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return light_power(rects[a]) > light_power(rects[b]);
     });
-    std::vector<int> rect_lights;
-    for (const RectLight& rect : rects) rect_lights.push_back(lights.add_rect(rect));
-    for (const Instance& instance : scene.instances) append_instance(flat, scene, instance, lights);
+    std::vector<int> rect_lights(rects.size());
+    for (std::size_t i : order) rect_lights[i] = lights.add_rect(rects[i]);
+
+    std::vector<TriangleLights> triangle_lights(scene.instances.size());
+    for (std::size_t i = 0; i < shining.size(); ++i)
+        for (std::size_t k : {0, 1})
+            triangle_lights[shining[i].instance].emplace_back(
+                shining[i].triangle + k, rect_lights[scene.rect_lights.size() + i]);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        append_instance(flat, scene, scene.instances[i], triangle_lights[i], lights);
 
     const auto black = uint32_t(flat.materials.size());
     flat.materials.push_back(to_device(Material{.diffuse = Vec3(0)}));
-    for (std::size_t i = 0; i < rects.size(); ++i)
+    for (std::size_t i = 0; i < scene.rect_lights.size(); ++i)
         append_rect(flat, rects[i], black, rect_lights[i]);
     for (const PointLight& point : scene.point_lights) lights.add_point(point);
     flat.lights = lights.take();

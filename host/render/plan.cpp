@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/render/lights.hpp"
+#include "host/render/shining_rects.hpp"
 #include "wedge/shared/filter.h"
 
 namespace wedge::rendering {
@@ -24,6 +25,7 @@ std::vector<bool> used_materials(const Scene& scene) {
 int count_shadow_lights(const Scene& scene) {
     int count = 0;
     for (const RectLight& rect : scene.rect_lights) count += light_power(rect) > 0;
+    for (const ShiningRect& rect : find_shining_rects(scene)) count += light_power(rect.light) > 0;
     return std::min(count, WEDGE_MAX_SHADOW_LIGHTS);
 }
 

@@ -53,6 +53,23 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     return s;
 }
 
+std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
+    if (plan.signals == 0) return {};
+    const uint64_t surfaces = pixels * WEDGE_SURFACES, entries = surfaces * uint64_t(plan.signals);
+    return {
+        {"sample counts", pixels * sizeof(SampleEnds)},
+        {"surfaces of pixels",
+         surfaces * (sizeof(shared::SurfaceSum) + sizeof(shared::FilterSurface))},
+        {"signals, sampled", entries * 2 * sizeof(shared::float4)},
+        {"signals, filtered", entries * 2 * sizeof(cl_float8)},
+        {"distances", entries * (sizeof(shared::DistanceRange) + sizeof(cl_float2))},
+        {"filter widths", entries * sizeof(float)},
+        {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
+        {"light before and after filters", pixels * 3 * sizeof(shared::HalfLight)},
+        {"guard", pixels * (2 * sizeof(shared::FilterErrors) + sizeof(shared::GuardedPixel))},
+    };
+}
+
 SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Plan& plan,
                            const Rect& crop, const shared::FilterSettings& settings,
                            const std::string& kernel_dir, RenderStats& stats)

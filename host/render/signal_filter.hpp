@@ -25,6 +25,13 @@ struct FilteredLight {
     SignalLayers indirect;                      ///< diffuse
 };
 
+/// Device memory that a plan's signals take for so many pixels.
+struct FilterBuffer {
+    const char* name;
+    uint64_t bytes;
+};
+std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels);
+
 /// Samples a pixel is to be brought to.
 struct SampleEnds {
     uint32_t paths, camera_rays;

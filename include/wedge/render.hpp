@@ -15,16 +15,15 @@
 namespace wedge {
 
 /// `hash`: independent samples, textbook variance, for statistical tests. `sobol`: Owen-scrambled
-/// Sobol with pixels in Z-order, the default. `stratified`: jittered strata, one sample in each, the
-/// yardstick of the papers (docs/method.md).
+/// Sobol with pixels in Z-order, the default. `stratified`: jittered strata, one sample in each,
+/// the yardstick of the papers (docs/method.md).
 enum class Sampler { sobol, hash, stratified };
 
 /// As users write it: "sobol", "hash", "stratified".
 const char* to_string(Sampler sampler);
 
-/// `mc`: plain path tracing, unbiased. `aaf`: shadows of rectangular lights on diffuse surfaces are
-/// sampled as densely as their frequencies ask for, and filtered (docs/method.md); all else as
-/// `mc`.
+/// `mc`: plain path tracing, unbiased. `aaf`: soft shadows and indirect light are sampled as
+/// densely as their frequencies ask for, and filtered (docs/method.md); all else as `mc`.
 enum class Method { mc, aaf };
 
 struct Rect {
@@ -48,7 +47,7 @@ struct RenderOptions {
     Method method = Method::mc;
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
     /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu).
-    float mu = 2;
+    float mu = 1;
     std::string kernel_dir;    ///< read kernels from this source tree instead of the program
     uint32_t local_size = 0;   ///< work-group size; 0: what suits the device
     uint32_t tile_pixels = 0;  ///< pixels an enqueue; 0: what suits the device
@@ -94,6 +93,10 @@ Frame render(const Scene& scene, const RenderOptions& options = {});
 /// Traces one pixel again and tells what each path met: place, material, throughput, light. The
 /// numbers are those of the render with the same options.
 std::string replay_pixel(const Scene& scene, const RenderOptions& options, int x, int y);
+
+/// Which effects of the scene are modelled how and why, with the kernels and buffers that takes, in
+/// words. Throws as render() does; needs no device.
+std::string explain(const Scene& scene, const RenderOptions& options = {});
 
 /// "major.minor.patch".
 const char* version();

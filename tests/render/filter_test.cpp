@@ -306,6 +306,31 @@ TEST_CASE("unfiltered_layer_is_the_plain_estimate") {
               doctest::Approx(channel_mean(truth, channel)).epsilon(0.01));
 }
 
+TEST_CASE("explain_names_what_a_plan_has_and_no_more") {
+    const std::string matt = explain(make_room(0), filtered(1));
+    CHECK(matt.find("soft shadows       filtered") != std::string::npos);
+    CHECK(matt.find("indirect, diffuse  none") != std::string::npos);  // bounces = 0
+    CHECK(matt.find("WEDGE_SPECULAR") == std::string::npos);
+    RenderOptions bouncing = filtered(1);
+    bouncing.bounces = 2;
+    const std::string shiny = explain(make_room(20), bouncing);
+    CHECK(shiny.find("indirect, gloss    filtered") != std::string::npos);
+    CHECK(shiny.find("WEDGE_SPECULAR=1") != std::string::npos);
+    CHECK(explain(make_room(0), quick(1, 0)).find("plain Monte Carlo") != std::string::npos);
+}
+
+TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
+    Scene matt = make_room(0), shiny = make_room(20);
+    matt.film = shiny.film = {32, 24};
+    RenderOptions options = filtered(1);
+    options.bounces = 1;
+    const uint64_t more =
+        render(shiny, options).stats.device_bytes - render(matt, options).stats.device_bytes;
+    // One signal: sums, means and filtered means in two halves, distances, width.
+    const uint64_t entries = 32 * 24 * 2;
+    CHECK(more == entries * (32 + 64 + 16 + 8 + 4));
+}
+
 TEST_CASE("filtered_images_do_not_depend_on_work_groups_or_tiles") {
     const Scene scene = make_penumbra(LightProfile::uniform);
     const Image reference = render(scene, filtered(1)).image;

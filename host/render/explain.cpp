@@ -1,0 +1,118 @@
+// The plan of a frame in words.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/render/lights.hpp"
+#include "host/render/plan.hpp"
+#include "host/render/render_settings.hpp"
+#include "host/render/shining_rects.hpp"
+#include "host/render/signal_filter.hpp"
+#include "wedge/render.hpp"
+
+namespace wedge {
+namespace {
+
+using namespace rendering;
+
+struct Line {
+    std::string what, how, why;
+};
+
+std::string table(const std::vector<Line>& lines) {
+    std::size_t what = 0, how = 0;
+    for (const Line& line : lines) {
+        what = std::max(what, line.what.size());
+        how = std::max(how, line.how.size());
+    }
+    std::string text;
+    for (const Line& line : lines) {
+        std::string row =
+            fmt::format("  {:<{}}  {:<{}}  {}", line.what, what, line.how, how, line.why);
+        row.erase(row.find_last_not_of(' ') + 1);
+        text += row + "\n";
+    }
+    return text;
+}
+
+Line shadows(const Scene& scene, const Plan& plan) {
+    const std::size_t rects = scene.rect_lights.size() + find_shining_rects(scene).size();
+    if (rects == 0) return {"soft shadows", "none", "no rectangle shines"};
+    if (plan.signals == 0) return {"soft shadows", "Monte Carlo", "the method filters nothing"};
+    std::string why = fmt::format("on diffuse surfaces seen directly; {} of {} shining rectangles",
+                                  plan.shadow_lights, rects);
+    if (std::size_t(plan.shadow_lights) < rects) why += ", the most powerful; others Monte Carlo";
+    return {"soft shadows", "filtered", why};
+}
+
+Line hemisphere(const char* name, bool is_there, const char* missing, bool filtered,
+                const std::string& why) {
+    if (!is_there) return {name, "none", missing};
+    return {name, filtered ? "filtered" : "Monte Carlo", why};
+}
+
+std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
+    std::vector<Line> lines{shadows(scene, plan)};
+    const bool sky = scene.background != Vec3(0);
+    const std::string from =
+        bounces > 0 ? fmt::format("{} bounces{}", bounces, sky ? " and the background" : "")
+                    : std::string("the background");
+    const char* dark = "no bounces and no background";
+    lines.push_back(
+        hemisphere("indirect, diffuse", bounces > 0 || sky, dark, plan.hemisphere, from));
+    lines.push_back(hemisphere("indirect, gloss", (bounces > 0 || sky) && plan.specular,
+                               "no visible material has a lobe", plan.hemisphere, from));
+    lines.push_back({"highlights", plan.specular ? "Monte Carlo" : "none",
+                     plan.specular ? "the theory has no filter for lobes under lights"
+                                   : "no visible material has a lobe"});
+    const bool points = !scene.point_lights.empty();
+    lines.push_back(
+        {"hard shadows", points ? "Monte Carlo" : "none",
+         points ? fmt::format("{} point lights: nothing to filter", scene.point_lights.size())
+                : "no point lights"});
+    lines.push_back(
+        {"textures", plan.textures ? "yes" : "none",
+         plan.textures ? "multiplied after filters" : "no visible material has an image"});
+    lines.push_back({"normal maps", plan.normal_maps ? "yes" : "none",
+                     plan.normal_maps ? "surfaces whose normals differ are filtered apart"
+                                      : "no visible material bends its normal"});
+    return lines;
+}
+
+std::vector<Line> programs(const Plan& plan) {
+    std::vector<device::ProgramRequest> requests{plan.path_program};
+    requests.insert(requests.end(), plan.filter_programs.begin(), plan.filter_programs.end());
+    std::vector<Line> lines;
+    for (const device::ProgramRequest& request : requests)
+        lines.push_back({request.file, fmt::format("{}", fmt::join(request.defines, " ")), ""});
+    return lines;
+}
+
+std::vector<Line> buffers(const Plan& plan, const Rect& crop) {
+    const uint64_t pixels = uint64_t(crop.width) * uint64_t(crop.height);
+    std::vector<Line> lines;
+    const auto add = [&](const char* name, uint64_t bytes) {
+        lines.push_back({name, fmt::format("{:.1f} MiB", double(bytes) / (1 << 20)), ""});
+    };
+    add("film", pixels * sizeof(shared::FilmPixel));
+    for (const FilterBuffer& buffer : filter_buffers(plan, pixels)) add(buffer.name, buffer.bytes);
+    return lines;
+}
+
+}  // namespace
+
+std::string explain(const Scene& scene, const RenderOptions& options) {
+    const PathSettings settings = make_path_settings(scene, options);
+    const Plan plan = make_plan(scene, options.method, settings.bounces);
+    std::string text =
+        options.method == Method::aaf
+            ? fmt::format("method: aaf, mu {:g}{}\n", options.mu,
+                          plan.signals > 0 ? "" : "; nothing to filter, so plain Monte Carlo")
+            : std::string("method: mc, plain Monte Carlo\n");
+    text += "effects\n" + table(effects(scene, plan, settings.bounces));
+    text += "kernels\n" + table(programs(plan));
+    text += "buffers, beside the scene\n" + table(buffers(plan, settings.crop));
+    return text;
+}
+
+}  // namespace wedge

@@ -1,0 +1,22 @@
+// Rectangles among shining triangles: most lamps of models are two triangles, and rectangles are
+// sampled better and have shadows that can be filtered.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "wedge/scene.hpp"
+
+namespace wedge::rendering {
+
+/// Triangles `triangle` and `triangle` + 1 of an instance's mesh, in world space.
+struct ShiningRect {
+    std::size_t instance, triangle;
+    RectLight light;
+};
+
+/// Pairs of neighbouring triangles of one evenly shining material that make a rectangle. In the
+/// order of the instances and their triangles.
+std::vector<ShiningRect> find_shining_rects(const Scene& scene);
+
+}  // namespace wedge::rendering
