@@ -143,6 +143,12 @@ std::vector<shared::PathVertex> PathTracer::record_samples(uint32_t first_sample
     return record;
 }
 
+void PathTracer::write_film(const std::vector<shared::FilmPixel>& pixels) {
+    film_ = device_.upload_bytes(pixels.data(), pixels.size() * sizeof(pixels[0]), "film",
+                                 CL_MEM_READ_WRITE);
+    kernel_.setArg(first_work_arg_ - 1, film_);
+}
+
 std::vector<shared::FilmPixel> PathTracer::read_film() {
     std::vector<shared::FilmPixel> pixels(pixel_count_);
     device_.download(film_, pixels.data(), pixels.size() * sizeof(pixels[0]));

@@ -58,6 +58,8 @@ class PathTracer {
 
     /// The crop's pixels as they are now.
     std::vector<shared::FilmPixel> read_film();
+    /// Replaces them: what read_film() gave, for samples to be added to.
+    void write_film(const std::vector<shared::FilmPixel>& pixels);
 
     uint32_t pixel_count() const { return pixel_count_; }
 

@@ -131,6 +131,9 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     if (plan.shadow_lights > 0)
         shadows.emplace(device, tracer, plan, settings.crop, make_shadow_settings(scene, options),
                         settings.kernel_dir, frame.stats);
+    std::optional<Checkpoints> checkpoints;
+    if (!options.resume_file.empty())
+        checkpoints.emplace(scene, options, settings, frame.stats, tracer);
     SamplingLoop loop(options, tracer, frame.stats);
     FilteredLight filtered;
     try {
@@ -138,6 +141,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
             filtered = run_filtered(loop, *shadows, make_shadow_settings(scene, options));
         } else {
             const uint32_t samples = sample_count(scene, options);
+            if (checkpoints) loop.keep(*checkpoints);
             loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
                      uint64_t(samples) * tracer.pixel_count());
         }

@@ -15,8 +15,8 @@
 namespace wedge {
 
 /// `hash`: independent samples, textbook variance, for statistical tests. `sobol`: Owen-scrambled
-/// Sobol with pixels in Z-order, the default. `stratified`: jittered strata, one sample in each, the
-/// yardstick of the papers (docs/method.md).
+/// Sobol with pixels in Z-order, the default. `stratified`: jittered strata, one sample in each,
+/// the yardstick of the papers (docs/method.md).
 enum class Sampler { sobol, hash, stratified };
 
 /// As users write it: "sobol", "hash", "stratified".
@@ -49,6 +49,11 @@ struct RenderOptions {
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
     /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu).
     float mu = 2;
+    /// A file for the state of the render, method mc only: saved while it runs and at its end, and
+    /// gone on from if it is there, to the same bits as without a break. The caller removes it.
+    /// Empty: none.
+    std::string resume_file;
+    double checkpoint_interval_s = 30;  ///< between two saves; longer where saving takes long
     std::string kernel_dir;    ///< read kernels from this source tree instead of the program
     uint32_t local_size = 0;   ///< work-group size; 0: what suits the device
     uint32_t tile_pixels = 0;  ///< pixels an enqueue; 0: what suits the device
