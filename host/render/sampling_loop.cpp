@@ -35,7 +35,11 @@ bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t 
             options_.on_progress({std::min(done_, total), total, watch_.total()});
     }
     if (checkpoints_) checkpoints_->save(schedule.position());
-    stats_.passes.push_back(pass);
+    // Bands of a film are one pass.
+    if (stats_.passes.empty() || stats_.passes.back().name != pass.name)
+        stats_.passes.push_back({name, 0, 0});
+    stats_.passes.back().device_s += pass.device_s;
+    stats_.passes.back().launches += pass.launches;
     return !stopped;
 }
 

@@ -54,6 +54,9 @@ struct RenderOptions {
     /// Empty: none.
     std::string resume_file;
     double checkpoint_interval_s = 30;  ///< between two saves; longer where saving takes long
+    /// Most bytes that the film (112 a pixel) may take on the device; larger films are rendered in
+    /// bands, method mc only. 0: what the device allows.
+    uint64_t film_bytes = 0;
     std::string kernel_dir;    ///< read kernels from this source tree instead of the program
     uint32_t local_size = 0;   ///< work-group size; 0: what suits the device
     uint32_t tile_pixels = 0;  ///< pixels an enqueue; 0: what suits the device
