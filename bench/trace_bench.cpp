@@ -1,6 +1,8 @@
 #include "bench/trace_bench.hpp"
 
 #include <algorithm>
+#include <ctime>
+#include <thread>
 
 #include "bench/tracers.hpp"
 #include "scenes/generators/generators.hpp"
@@ -73,10 +75,18 @@ Contender make_contender(device::Device& device, const BuiltTree& built, BvhLayo
     return contender;
 }
 
-void time_once(Contender& c) {
-    c.wedge_s.push_back(c.kernels->trace());
+double time_trace(Tracer& tracer, bool processor_time) {
+    if (!processor_time) return tracer.trace();
+    const std::clock_t start = std::clock();
+    tracer.trace();
+    const double cores = std::max(1u, std::thread::hardware_concurrency());
+    return double(std::clock() - start) / CLOCKS_PER_SEC / cores;
+}
+
+void time_once(Contender& c, bool processor_time) {
+    c.wedge_s.push_back(time_trace(*c.kernels, processor_time));
     if (!c.embree) return;
-    c.embree_s.push_back(c.embree->trace());
+    c.embree_s.push_back(time_trace(*c.embree, processor_time));
     c.ratios.push_back(c.embree_s.back() / c.wedge_s.back());
 }
 
@@ -98,16 +108,16 @@ TraceRow make_row(const RaySet& set, const Contender& c) {
 }
 
 /// Appends a row to each contender's report.
-void measure_rows(const RaySet& set, std::vector<Contender>& contenders, int repeats,
-                  std::vector<TraceReport>& reports) {
+void measure_rows(const RaySet& set, std::vector<Contender>& contenders,
+                  const TraceBenchOptions& options, std::vector<TraceReport>& reports) {
     for (Contender& c : contenders) {
         c.kernels->load(set);
         if (c.embree) c.embree->load(set);
-        if (!set.rays.empty()) time_once(c);  // not counted
+        if (!set.rays.empty()) time_once(c, options.processor_time);  // not counted
         c.wedge_s.clear(), c.embree_s.clear(), c.ratios.clear();
     }
-    for (int i = 0; i < repeats && !set.rays.empty(); ++i)
-        for (Contender& c : contenders) time_once(c);
+    for (int i = 0; i < options.repeats && !set.rays.empty(); ++i)
+        for (Contender& c : contenders) time_once(c, options.processor_time);
     for (std::size_t i = 0; i < contenders.size(); ++i)
         reports[i].rows.push_back(make_row(set, contenders[i]));
 }
@@ -167,7 +177,7 @@ std::vector<TraceReport> measure_tracing(device::Device& device, const Scene& sc
     };
     for (const RaySet& set : make_ray_sets(scene, flat, built.front().tree.bounds, options.width,
                                            options.height, trace))
-        measure_rows(set, contenders, options.repeats, reports);
+        measure_rows(set, contenders, options, reports);
     return reports;
 }
 

@@ -15,7 +15,10 @@ struct TraceBenchOptions {
     int width = 1024, height = 768;  ///< primary rays, px
     int repeats = 7;                 ///< timed, after one that is not
     uint32_t local_size = 0;         ///< work-group size; 0: what suits the device
-    bool embree = true;     ///< measured too, where the build has it and the device is a CPU
+    bool embree = true;  ///< measured too, where the build has it and the device is a CPU
+    /// Measure processor time, divided by the cores, in place of wall time: on a machine that is
+    /// busy with other things, the ratios are steadier.
+    bool processor_time = false;
     int build_repeats = 3;  ///< builds of each tree, by turns with Embree's; the median counts
     /// Trees to be measured; all layouts of one quality share one build.
     std::vector<BvhLayout> layouts = {BvhLayout::automatic};

@@ -191,6 +191,8 @@ void register_bench(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--local-size", arguments->options.local_size,
                         "Work-group size; 0: what suits the device");
+    command->add_flag("--cpu-time", arguments->options.processor_time,
+                      "Measure processor time: for a machine that is busy otherwise");
     command->add_option("--json", arguments->json_file, "Write the numbers to this file");
     command->add_flag("--no-embree", arguments->no_embree, "Do not measure Embree");
     command->callback([arguments] { run(*arguments); });

@@ -33,6 +33,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 void check_outputs(const RenderArguments& arguments, const RenderJob& job) {
     for (const fs::path& file : job.outputs) check_output(file);
     if (!arguments.stats_file.empty()) check_output(arguments.stats_file);
+    if (!arguments.resume_file.empty()) check_output(arguments.resume_file);
 }
 
 void replay(const Scene& scene, const RenderJob& job) {
@@ -83,6 +84,16 @@ void write_stats(const std::string& file, const std::string& json) {
     throw Interrupted{};
 }
 
+/// Once its image is written a whole render needs no state; a broken one does.
+void end_state(const RenderArguments& arguments, const RenderStats& stats) {
+    if (arguments.resume_file.empty()) return;
+    std::error_code ignored;
+    if (!stats.interrupted && stats.failure.empty() && !arguments.time_s)
+        fs::remove(arguments.resume_file, ignored);
+    else
+        say("the same command with --resume " + arguments.resume_file + " goes on from here");
+}
+
 void run(const RenderArguments& arguments) {
     install_messages(arguments.quiet);
     const RenderJob job = check_arguments(arguments);
@@ -106,6 +117,7 @@ void run(const RenderArguments& arguments) {
         write_stats(arguments.stats_file,
                     stats_json(stats, scene, job.options, arguments.scene, load_s));
     report(stats, scene, job.options, load_s);
+    end_state(arguments, stats);
     if (!stats.failure.empty())
         throw Error(ErrorKind::device,
                     stats.failure + "\nthe image holds the samples from before this");
@@ -158,6 +170,14 @@ void add_results(CLI::App& command, RenderArguments& a) {
     command
         .add_option("--stats", a.stats_file, "Write times, rays and sizes as JSON; default: none")
         ->type_name("FILE");
+    command
+        .add_option(
+            "--resume", a.resume_file,
+            "Keep the state of the render in this file while it runs, and go on from it if it is "
+            "there (method mc); default: none")
+        ->type_name("FILE");
+    command.add_option("--checkpoint", a.checkpoint_s,
+                       "Seconds between two saves of that state; default: 30");
     command.add_option("--pixel", a.pixel,
                        "Replay the paths of pixel X,Y (px) in words on stdout, write no image");
     command.add_flag("--quiet", a.quiet, "Only warnings and errors on stderr");

@@ -28,6 +28,8 @@ void check_numbers(const RenderArguments& a) {
         refuse(fmt::format("--bounces: must be at least 0, got {}", *a.bounces));
     if (a.time_s && !(*a.time_s > 0 && std::isfinite(*a.time_s)))
         refuse(fmt::format("--time: must be a positive number of seconds, got {}", *a.time_s));
+    if (!(a.checkpoint_s >= 0))
+        refuse(fmt::format("--checkpoint: must not be negative, got {}", a.checkpoint_s));
     if (a.exposure && !std::isfinite(*a.exposure))
         refuse(fmt::format("--exposure: must be a number of stops, got {}", *a.exposure));
     if (a.sample_offset % kSampleBatch != 0)
@@ -113,6 +115,10 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));
     job.options.mu = arguments.mu;
     job.options.kernel_dir = arguments.kernel_dir;
+    job.options.resume_file = arguments.resume_file;
+    job.options.checkpoint_interval_s = arguments.checkpoint_s;
+    if (!arguments.resume_file.empty() && job.options.method != Method::mc)
+        refuse("--resume: only renders by --method mc can be resumed");
     job.options.local_size = arguments.local_size;
     job.options.tile_pixels = arguments.tile_pixels;
 

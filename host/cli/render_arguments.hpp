@@ -29,6 +29,8 @@ struct RenderArguments {
     std::string seed = "0";
     uint32_t sample_offset = 0, local_size = 0, tile_pixels = 0;
     std::string device, kernel_dir;
+    std::string resume_file;
+    double checkpoint_s = 30;
     bool quiet = false;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <map>
+#include <optional>
 
 namespace wedge::image {
 namespace {
@@ -60,6 +62,62 @@ class Reader {
     bool good_ = true;
 };
 
+/// Bytes of values of the types whose size is fixed; the library reads that many whatever the file
+/// says. Nothing for other types.
+std::optional<std::uint32_t> fixed_size(const std::string& type) {
+    static const std::map<std::string, std::uint32_t> kSizes{{"box2f", 16},
+                                                             {"box2i", 16},
+                                                             {"chromaticities", 32},
+                                                             {"compression", 1},
+                                                             {"deepImageState", 1},
+                                                             {"double", 8},
+                                                             {"envmap", 1},
+                                                             {"float", 4},
+                                                             {"int", 4},
+                                                             {"keycode", 28},
+                                                             {"lineOrder", 1},
+                                                             {"m33d", 72},
+                                                             {"m33f", 36},
+                                                             {"m44d", 128},
+                                                             {"m44f", 64},
+                                                             {"rational", 8},
+                                                             {"tiledesc", 9},
+                                                             {"timecode", 8},
+                                                             {"v2d", 16},
+                                                             {"v2f", 8},
+                                                             {"v2i", 8},
+                                                             {"v3d", 24},
+                                                             {"v3f", 12},
+                                                             {"v3i", 12}};
+    const auto found = kSizes.find(type);
+    if (found == kSizes.end()) return std::nullopt;
+    return found->second;
+}
+
+/// Goes past the value of an attribute as the library does, which minds the size for some types
+/// only. False where what it would read is not what the file says is there.
+bool skip_value(Reader& reader, const std::string& type, std::uint32_t bytes) {
+    const std::uint64_t before = reader.left();
+    if (const auto size = fixed_size(type); size && *size != bytes) return false;
+    if (type == "chlist") {
+        constexpr std::uint32_t kChannel = 16;  // type, linearity, sampling
+        while (!reader.name().empty() && reader.good()) {
+            if (reader.left() < kChannel) return false;
+            reader.skip(kChannel);
+        }
+        return reader.good() && before - reader.left() == bytes;
+    }
+    if (type == "preview") {
+        const std::uint64_t width = reader.number(), height = reader.number();
+        if (!reader.good() || width > bytes || height > bytes || 8 + 4 * width * height != bytes)
+            return false;
+        reader.skip(bytes - 8);
+        return true;
+    }
+    reader.skip(bytes);
+    return true;
+}
+
 }  // namespace
 
 std::string flaw_of_exr_header(const std::filesystem::path& file) {
@@ -76,11 +134,12 @@ std::string flaw_of_exr_header(const std::filesystem::path& file) {
             continue;
         }
         part_is_empty = false;
-        reader.name();  // of the type
+        const std::string type = reader.name();
         const std::uint32_t bytes = reader.number();
         if (!reader.good()) break;
         if (bytes > reader.left()) return "its attribute \"" + name + "\" is longer than the file";
-        reader.skip(bytes);
+        if (!skip_value(reader, type, bytes))
+            return "its attribute \"" + name + "\" has not the size of its type";
     }
     return "its header is damaged";
 }

@@ -68,17 +68,26 @@ void write_pixel(const shared::FilmPixel& p, float* out) {
 
 }  // namespace
 
-Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop) {
+Image black_image(const Film& film) {
     Image image;
     image.width = film.width;
     image.height = film.height;
     image.channels = kChannels;
     image.pixels.assign(std::size_t(film.width) * film.height * kChannels.size(), 0.0f);
+    return image;
+}
+
+void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image) {
     parallel_ranges(std::size_t(crop.height), 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y)
             for (int x = 0; x < crop.width; ++x)
                 write_pixel(pixels[y * crop.width + x], &image.at(crop.x + x, crop.y + int(y), 0));
     });
+}
+
+Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop) {
+    Image image = black_image(film);
+    write_film(pixels, crop, image);
     return image;
 }
 

@@ -6,12 +6,15 @@
 #include <numeric>
 #include <utility>
 
+#include "host/base/parallel.hpp"
 #include "host/render/lights.hpp"
 #include "host/render/shining_rects.hpp"
 #include "wedge/error.hpp"
 
 namespace wedge::rendering {
 namespace {
+
+constexpr std::size_t kGrain = 1 << 14;  // vertices or triangles a task
 
 shared::float4 to_float4(const Vec3& v, float w = 0) {
     return {v.x, v.y, v.z, w};
@@ -39,18 +42,23 @@ shared::ShadingVertex make_vertex(const Vec3& p, const Vec3& n, const Vec2& uv) 
 
 void append_vertices(FlatScene& flat, const Mesh& mesh, const Mat4& transform) {
     const glm::mat3 normal_transform = glm::transpose(glm::inverse(glm::mat3(transform)));
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const Vec3 p = Vec3(transform * Vec4(mesh.positions[i], 1));
-        Vec3 n(0);
-        if (!mesh.normals.empty()) {
-            const Vec3 turned = normal_transform * mesh.normals[i];
-            const float length = glm::length(turned);
-            if (length > 0 && std::isfinite(length)) n = turned / length;
+    const std::size_t base = flat.positions.size(), count = mesh.positions.size();
+    flat.positions.resize(base + count);
+    flat.vertices.resize(base + count);
+    parallel_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Vec3 p = Vec3(transform * Vec4(mesh.positions[i], 1));
+            Vec3 n(0);
+            if (!mesh.normals.empty()) {
+                const Vec3 turned = normal_transform * mesh.normals[i];
+                const float length = glm::length(turned);
+                if (length > 0 && std::isfinite(length)) n = turned / length;
+            }
+            const Vec2 uv = mesh.uvs.empty() ? Vec2(0) : mesh.uvs[i];
+            flat.positions[base + i] = p;
+            flat.vertices[base + i] = make_vertex(p, n, uv);
         }
-        const Vec2 uv = mesh.uvs.empty() ? Vec2(0) : mesh.uvs[i];
-        flat.positions.push_back(p);
-        flat.vertices.push_back(make_vertex(p, n, uv));
-    }
+    });
 }
 
 void append_triangle(FlatScene& flat, const UVec3& t, uint32_t material, int light) {
@@ -61,6 +69,24 @@ void append_triangle(FlatScene& flat, const UVec3& t, uint32_t material, int lig
 /// Lights of those triangles of an instance that make rectangles, in order.
 using TriangleLights = std::vector<std::pair<std::size_t, int>>;
 
+/// Makes lights of the shining ones among the last `count` triangles, in their order.
+void add_mesh_lights(FlatScene& flat, const Scene& scene, std::size_t count,
+                     const TriangleLights& rects, LightList& lights) {
+    const std::size_t first = flat.triangles.size() - count;
+    auto next_rect = rects.begin();
+    for (std::size_t i = first; i < flat.triangles.size(); ++i) {
+        const Material& m = scene.materials[flat.shading[i].material];
+        if (m.emission == Vec3(0)) continue;
+        if (next_rect != rects.end() && next_rect->first == i - first) {
+            flat.shading[i].light = (next_rect++)->second;
+            continue;
+        }
+        const UVec3 t = flat.triangles[i];
+        flat.shading[i].light = lights.add_triangle(flat.positions[t.x], flat.positions[t.y],
+                                                    flat.positions[t.z], m, uint32_t(i));
+    }
+}
+
 void append_instance(FlatScene& flat, const Scene& scene, const Instance& instance,
                      const TriangleLights& rects, LightList& lights) {
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -68,22 +94,23 @@ void append_instance(FlatScene& flat, const Scene& scene, const Instance& instan
     append_vertices(flat, mesh, instance.transform);
     // A mirrored instance would turn its triangles inside out.
     const bool mirrored = glm::determinant(glm::mat3(instance.transform)) < 0;
-    auto next_rect = rects.begin();
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        UVec3 t = mesh.triangles[i] + base;
-        if (mirrored) std::swap(t.y, t.z);
-        const uint32_t material = instance.material
-                                      ? *instance.material
-                                      : (mesh.material_of.empty() ? 0u : mesh.material_of[i]);
-        const Material& m = scene.materials[material];
-        int light = -1;
-        if (next_rect != rects.end() && next_rect->first == i)
-            light = (next_rect++)->second;
-        else if (m.emission != Vec3(0))
-            light = lights.add_triangle(flat.positions[t.x], flat.positions[t.y],
-                                        flat.positions[t.z], m, uint32_t(flat.triangles.size()));
-        append_triangle(flat, t, material, light);
-    }
+    const std::size_t first = flat.triangles.size(), count = mesh.triangles.size();
+    flat.triangles.resize(first + count);
+    flat.shading.resize(first + count);
+    parallel_ranges(count, kGrain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            UVec3 t = mesh.triangles[i] + base;
+            if (mirrored) std::swap(t.y, t.z);
+            const uint32_t material = instance.material
+                                          ? *instance.material
+                                          : (mesh.material_of.empty() ? 0u : mesh.material_of[i]);
+            flat.triangles[first + i] = t;
+            flat.shading[first + i] = {t.x, t.y, t.z, material, -1};
+        }
+    });
+    const auto shines = [](const Material& m) { return m.emission != Vec3(0); };
+    if (std::any_of(scene.materials.begin(), scene.materials.end(), shines))
+        add_mesh_lights(flat, scene, count, rects, lights);
 }
 
 void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, int light) {
@@ -98,7 +125,8 @@ void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, int 
     append_triangle(flat, {base, base + 2, base + 3}, material, light);
 }
 
-void check_counts(const Scene& scene) {
+/// Also makes room for all.
+void check_counts(const Scene& scene, FlatScene& flat) {
     uint64_t vertices = 4 * scene.rect_lights.size(), triangles = 2 * scene.rect_lights.size();
     for (const Instance& instance : scene.instances) {
         vertices += scene.meshes[instance.mesh].positions.size();
@@ -111,13 +139,17 @@ void check_counts(const Scene& scene) {
             fmt::format("the scene has {} triangles and {} vertices with all instances laid "
                         "out; at most {} of each can be indexed. Use fewer instances.",
                         triangles, vertices, kLimit));
+    flat.positions.reserve(vertices);
+    flat.vertices.reserve(vertices);
+    flat.triangles.reserve(triangles);
+    flat.shading.reserve(triangles);
 }
 
 }  // namespace
 
 FlatScene flatten(const Scene& scene) {
-    check_counts(scene);
     FlatScene flat;
+    check_counts(scene, flat);
     LightList lights;
     for (const Material& m : scene.materials) flat.materials.push_back(to_device(m));
     // First and by power: the first rectangles are those whose shadows can be filtered.

@@ -80,11 +80,30 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     if (kept == 0) log_warning("the scene has no triangle that can be rendered");
     scene_ = upload_scene(device_, flat, bvh, scene.textures);
     const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);
-    params_ = device_.upload_bytes(&params, sizeof(params), "frame parameters");
+    frame_ = params;
+    upload_frame(settings.crop);
+    stats.upload_s = watch.lap();
+}
+
+void PathTracer::upload_frame(const Rect& crop) {
+    crop_ = crop;
+    pixel_count_ = uint32_t(crop.width) * uint32_t(crop.height);
+    frame_.crop_x = crop.x;
+    frame_.crop_y = crop.y;
+    frame_.crop_width = crop.width;
+    frame_.crop_height = crop.height;
+    params_ = device_.upload_bytes(&frame_, sizeof(frame_), "frame parameters");
+    film_ = cl::Buffer();  // two at a time may be too much
     const std::vector<shared::FilmPixel> black(pixel_count_);
     film_ = device_.upload_bytes(black.data(), black.size() * sizeof(black[0]), "film",
                                  CL_MEM_READ_WRITE);
-    stats.upload_s = watch.lap();
+}
+
+void PathTracer::move_to(const Rect& crop) {
+    kernel_.setArg(first_work_arg_ - 1, cl::Buffer());
+    upload_frame(crop);
+    kernel_.setArg(0, params_);
+    kernel_.setArg(first_work_arg_ - 1, film_);
 }
 
 void PathTracer::compile(const Plan& plan, const PathSettings& settings, Recording recording,
@@ -143,6 +162,12 @@ std::vector<shared::PathVertex> PathTracer::record_samples(uint32_t first_sample
     add_samples({0, 1, first_sample, sample_count});
     device_.download(buffer, record.data(), bytes);
     return record;
+}
+
+void PathTracer::write_film(const std::vector<shared::FilmPixel>& pixels) {
+    film_ = device_.upload_bytes(pixels.data(), pixels.size() * sizeof(pixels[0]), "film",
+                                 CL_MEM_READ_WRITE);
+    kernel_.setArg(first_work_arg_ - 1, film_);
 }
 
 std::vector<shared::FilmPixel> PathTracer::read_film() {

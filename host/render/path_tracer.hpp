@@ -58,11 +58,19 @@ class PathTracer {
 
     /// The crop's pixels as they are now.
     std::vector<shared::FilmPixel> read_film();
+    /// Replaces them: what read_film() gave, for samples to be added to.
+    void write_film(const std::vector<shared::FilmPixel>& pixels);
 
     uint32_t pixel_count() const { return pixel_count_; }
+    /// The part of the film that is rendered.
+    const Rect& crop() const { return crop_; }
+    /// From now on another part, black, and no larger than the first. Only where nothing is
+    /// attached.
+    void move_to(const Rect& crop);
 
   private:
     void upload(const Scene& scene, const PathSettings& settings, RenderStats& stats);
+    void upload_frame(const Rect& crop);
     void compile(const Plan& plan, const PathSettings& settings, Recording recording,
                  RenderStats& stats);
     void warm_up();
@@ -73,6 +81,8 @@ class PathTracer {
     cl::Kernel kernel_;
     cl_uint first_work_arg_ = 0, record_arg_ = 0;
     bool has_signals_ = false;
+    shared::FrameParams frame_{};  ///< params_ as the device has it
+    Rect crop_;
     uint32_t pixel_count_ = 0;
     uint32_t local_size_ = 0;
     uint32_t vertices_per_path_ = 0;

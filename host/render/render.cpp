@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/device/self_test.hpp"
+#include "host/render/bands.hpp"
 #include "host/render/film_image.hpp"
 #include "host/render/filter_layers.hpp"
 #include "host/render/path_tracer.hpp"
@@ -25,20 +26,22 @@ void count_film(const std::vector<shared::FilmPixel>& film, const Rect& crop, ui
                 RenderStats& stats) {
     constexpr std::size_t kNamed = 4;
     std::vector<std::string> places;
+    uint64_t dropped = 0;
     for (std::size_t i = 0; i < film.size(); ++i) {
         const shared::FilmPixel& p = film[i];
         stats.samples += uint64_t(p.direct.w) + uint64_t(p.square.w);
         stats.rays += uint64_t(p.indirect.w);
-        stats.non_finite_samples += uint64_t(p.square.w);
+        dropped += uint64_t(p.square.w);
         if (p.square.w > 0 && places.size() < kNamed)
             places.push_back(
                 fmt::format("{},{}", crop.x + int(i % crop.width), crop.y + int(i / crop.width)));
     }
-    if (stats.non_finite_samples > 0)
+    stats.non_finite_samples += dropped;
+    if (dropped > 0)
         log_warning(
             fmt::format("{} samples were not finite and have been dropped, first at pixel {}, seed "
                         "{}; look at one with --pixel X,Y",
-                        stats.non_finite_samples, fmt::join(places, " and "), seed));
+                        dropped, fmt::join(places, " and "), seed));
 }
 
 void add_metadata(Image& image, const Scene& scene, const RenderOptions& options,
@@ -101,6 +104,13 @@ void replace_unfiltered(std::vector<shared::FilmPixel>& film, const FilteredLigh
     }
 }
 
+/// Takes the pixels of a band that is done into the image.
+void finish_band(PathTracer& tracer, const RenderOptions& options, Frame& frame) {
+    const std::vector<shared::FilmPixel> film = tracer.read_film();
+    count_film(film, tracer.crop(), options.seed, frame.stats);
+    write_film(film, tracer.crop(), frame.image);
+}
+
 }  // namespace
 
 const char* version() {
@@ -120,7 +130,7 @@ const char* to_string(Sampler sampler) {
 }
 
 Frame render(const Scene& scene, const RenderOptions& options) {
-    const PathSettings settings = make_path_settings(scene, options);
+    PathSettings settings = make_path_settings(scene, options);
     device::Device device(options.device);
     check_local_size(device, options.local_size);
     device::self_test(device);
@@ -128,21 +138,35 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     Frame frame;
     frame.stats.device = device.info();
     const Plan plan = make_plan(scene, options.method, settings.bounces);
+    const Rect whole = settings.crop;
+    const std::vector<Rect> bands = cut_into_bands(whole, options, device.info());
+    settings.crop = bands[0];
     PathTracer tracer(device, scene, settings, plan, frame.stats);
     std::optional<SignalFilter> filter;
     const shared::FilterSettings filter_settings = make_filter_settings(scene, options);
     if (plan.signals > 0)
         filter.emplace(device, tracer, plan, settings.crop, filter_settings, settings.kernel_dir,
                        frame.stats);
+    std::optional<Checkpoints> checkpoints;
+    if (!options.resume_file.empty())
+        checkpoints.emplace(scene, options, settings, frame.stats, tracer);
     SamplingLoop loop(options, tracer, frame.stats);
     FilteredLight filtered;
+    frame.image = black_image(scene.film);
     try {
         if (filter) {
             filtered = run_filtered(loop, *filter, filter_settings);
         } else {
             const uint32_t samples = sample_count(scene, options);
-            loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
-                     uint64_t(samples) * tracer.pixel_count());
+            if (checkpoints) loop.keep(*checkpoints);
+            const uint64_t total = uint64_t(samples) * whole.width * whole.height;
+            for (std::size_t band = 0; band < bands.size(); ++band) {
+                if (band > 0) finish_band(tracer, options, frame);
+                if (band > 0) tracer.move_to(bands[band]);
+                if (!loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
+                              total))
+                    break;
+            }
         }
     } catch (const Error& error) {
         // What was traced before may still be there; only if it is not, nothing can be saved.
@@ -153,9 +177,9 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     std::vector<shared::FilmPixel> film = tracer.read_film();
     const std::vector<NamedChannel> layers = filter_layers(filtered, film);
     replace_unfiltered(film, filtered);
-    count_film(film, settings.crop, options.seed, frame.stats);
-    frame.image = film_to_image(film, scene.film, settings.crop);
-    add_channels(frame.image, layers, settings.crop);
+    count_film(film, tracer.crop(), options.seed, frame.stats);
+    write_film(film, tracer.crop(), frame.image);
+    add_channels(frame.image, layers, tracer.crop());
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

@@ -18,6 +18,7 @@ bool SamplingLoop::must_stop(bool at_pass_end) {
 bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t total,
                        bool probing) {
     Schedule schedule(tracer_.pixel_count(), first, end - first, options_.tile_pixels);
+    if (checkpoints_) done_ += checkpoints_->begin(schedule, first);
     PassStats pass{name, 0, 0};
     bool stopped = false;
     while (!(stopped = must_stop(schedule.at_pass_end()))) {
@@ -29,10 +30,16 @@ bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t 
         pass.device_s += seconds;
         pass.launches += 1;
         done_ += uint64_t(work->pixel_count) * work->sample_count;
+        if (checkpoints_) checkpoints_->between_launches(schedule.position());
         if (options_.on_progress)
             options_.on_progress({std::min(done_, total), total, watch_.total()});
     }
-    stats_.passes.push_back(pass);
+    if (checkpoints_) checkpoints_->save(schedule.position());
+    // Bands of a film are one pass.
+    if (stats_.passes.empty() || stats_.passes.back().name != pass.name)
+        stats_.passes.push_back({name, 0, 0});
+    stats_.passes.back().device_s += pass.device_s;
+    stats_.passes.back().launches += pass.launches;
     return !stopped;
 }
 

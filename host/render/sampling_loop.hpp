@@ -3,6 +3,7 @@
 
 #include "host/base/stopwatch.hpp"
 #include "host/render/path_tracer.hpp"
+#include "host/render/resume.hpp"
 #include "wedge/render.hpp"
 
 namespace wedge::rendering {
@@ -11,6 +12,9 @@ class SamplingLoop {
   public:
     SamplingLoop(const RenderOptions& options, PathTracer& tracer, RenderStats& stats)
         : options_(options), tracer_(tracer), stats_(stats) {}
+
+    /// From now on states are saved, and the next run goes on from the one found.
+    void keep(Checkpoints& checkpoints) { checkpoints_ = &checkpoints; }
 
     /// Brings all pixels from sample `first` to `end`, as a pass of that name in the statistics.
     /// `total`: pixel samples of the whole render, for progress. False if it was stopped.
@@ -30,6 +34,7 @@ class SamplingLoop {
     const RenderOptions& options_;
     PathTracer& tracer_;
     RenderStats& stats_;
+    Checkpoints* checkpoints_ = nullptr;
     Stopwatch watch_;
     uint64_t done_ = 0;
 };

@@ -17,6 +17,12 @@ Schedule::Schedule(uint32_t pixels, uint32_t first_sample, uint32_t samples, uin
       end_sample_(first_sample + samples),
       tile_pixels_(tile_pixels) {}
 
+void Schedule::go_on_from(const Position& position) {
+    sample_ = position.sample;
+    pixel_ = position.pixel;
+    pass_samples_ = position.pass_samples;
+}
+
 void Schedule::begin_pass() {
     uint32_t batches = 1;
     if (seconds_per_sample_ > 0) {

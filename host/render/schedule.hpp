@@ -9,6 +9,12 @@
 
 namespace wedge::rendering {
 
+/// How far a render has come between two launches: all pixels have the samples before `sample`,
+/// those before `pixel` have `pass_samples` more.
+struct Position {
+    uint32_t sample = 0, pixel = 0, pass_samples = 0;
+};
+
 class Schedule {
   public:
     /// `tile_pixels` 0: chosen from measured times.
@@ -20,6 +26,11 @@ class Schedule {
 
     /// Tells how long the last launch took on the device.
     void measured(double seconds);
+
+    /// What the launches handed out so far lead to.
+    Position position() const { return {sample_, pixel_, pass_samples_}; }
+    /// Goes on from there instead of from the start.
+    void go_on_from(const Position& position);
 
     /// True if all pixels have the same samples: a good place to stop.
     bool at_pass_end() const { return pixel_ == 0; }

@@ -1,5 +1,6 @@
 #include "host/render/shining_rects.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -59,6 +60,7 @@ bool same_side(const Corners& a, const Corners& b) {
 
 std::vector<ShiningRect> find_shining_rects(const Scene& scene) {
     std::vector<ShiningRect> found;
+    if (std::none_of(scene.materials.begin(), scene.materials.end(), shines_evenly)) return found;
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const Mesh& mesh = scene.meshes[instance.mesh];

@@ -48,6 +48,14 @@ struct RenderOptions {
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
     /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu).
     float mu = 1;
+    /// A file for the state of the render, method mc only: saved while it runs and at its end, and
+    /// gone on from if it is there, to the same bits as without a break. The caller removes it.
+    /// Empty: none.
+    std::string resume_file;
+    double checkpoint_interval_s = 30;  ///< between two saves; longer where saving takes long
+    /// Most bytes that the film (112 a pixel) may take on the device; larger films are rendered in
+    /// bands, method mc only. 0: what the device allows.
+    uint64_t film_bytes = 0;
     std::string kernel_dir;    ///< read kernels from this source tree instead of the program
     uint32_t local_size = 0;   ///< work-group size; 0: what suits the device
     uint32_t tile_pixels = 0;  ///< pixels an enqueue; 0: what suits the device

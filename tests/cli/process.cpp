@@ -94,6 +94,7 @@ void collect(pid_t child, const Pipe& out, const Pipe& err, const ProcessSetting
             interrupted = true;
             kill(child, SIGINT);
         }
+        if (settings.kill_when && settings.kill_when()) kill(child, SIGKILL);
         const std::chrono::duration<double> elapsed = Clock::now() - start;
         if (!result.timed_out && elapsed.count() > settings.timeout_s) {
             result.timed_out = true;

@@ -16,6 +16,8 @@ struct ProcessSettings {
     double timeout_s = 300;                          ///< then it is killed
     /// Given what it has written to stderr so far; once it returns true the program gets a SIGINT.
     std::function<bool(const std::string&)> interrupt_when;
+    std::function<bool()>
+        kill_when;  ///< asked again and again; once true, the program gets SIGKILL
     std::optional<std::size_t> largest_file_bytes;  ///< a write beyond fails, as on a full disk
 };
 

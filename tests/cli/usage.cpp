@@ -34,7 +34,7 @@ const std::vector<WrongCall> kWrongOptions{
     {{"--crop", "0,0,0,4"}, "--crop"},
     {{"--crop", "30,0,4,4"}, "reaches outside the film of 32x24 px"},
     {{"--crop", "2147483647,0,2147483647,1"}, "reaches outside the film"},
-    {{"--pixel", "32,0"}, "outside the film of 32x24 px"},
+    {{"--resume", "--checkpoint", "--pixel", "32,0"}, "outside the film of 32x24 px"},
     {{"--pixel", "3"}, "expected X,Y"},
     {{"--sampler", "lottery"}, "known: sobol, stratified, hash"},
     {{"--tone", "sepia"}, "srgb"},
