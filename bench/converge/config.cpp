@@ -163,7 +163,10 @@ Film film_for(const std::string& size, const Film& own) {
 void complete(Config& config) {
     if (config.scenes.empty()) refuse("no scene: name scene files, or a --config that does");
     if (config.methods.empty()) refuse("--methods: at least one is needed");
-    for (const std::string& name : config.methods) find_method(name);
+    bool any_own = false;
+    for (const std::string& name : config.methods)
+        any_own = !find_method(name).external_source || any_own;
+    if (!any_own) refuse("--methods: at least one that this program runs is needed");
     config.budgets.spp = sorted_ladder(config.budgets.spp, "--budgets spp");
     config.budgets.mu = sorted_ladder(config.budgets.mu, "--budgets mu");
     if (!config.budgets.seconds.empty())

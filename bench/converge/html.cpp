@@ -75,6 +75,10 @@ std::string text_of(const Ratio& ratio) {
     }
 }
 
+std::size_t series_of(const Method& method) {
+    return std::size_t(&method - all_methods().data());
+}
+
 std::string series_class(std::size_t index) {
     return fmt::format("s{}", index % kColours);
 }
@@ -88,7 +92,8 @@ std::string marker_svg(std::size_t index, double x, double y) {
             points += fmt::format("{:.1f},{:.1f} ", x + dx * r, y + dy * r);
         return fmt::format("<polygon class=\"mark {}\" points=\"{}\"/>", name, points);
     };
-    switch (index % 5) {
+    // Where colours come again, marks do not.
+    switch ((index + index / kColours) % 5) {
         case 0:
             return fmt::format("<circle class=\"mark {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>",
                                name, x, y, r);
@@ -110,8 +115,8 @@ std::string legend_html(const std::vector<Curve>& curves) {
             "<li title=\"{}\"><svg class=\"swatch\" viewBox=\"0 0 26 12\" "
             "aria-hidden=\"true\"><line "
             "class=\"line {}\" x1=\"1\" y1=\"6\" x2=\"25\" y2=\"6\"/>{}</svg>{}</li>",
-            escaped(curves[i].method->label), series_class(i), marker_svg(i, 13, 6),
-            escaped(curves[i].method->name));
+            escaped(curves[i].method->label), series_class(series_of(*curves[i].method)),
+            marker_svg(series_of(*curves[i].method), 13, 6), escaped(curves[i].method->name));
     return html + "</ul>\n";
 }
 
@@ -179,6 +184,7 @@ svg text.tick { fill: var(--soft); font-size: 12px; }
 .legend { list-style: none; display: flex; flex-wrap: wrap; gap: .15rem 1rem; margin: .5rem 0; padding: 0; font-size: .9rem; }
 .legend li { display: flex; align-items: center; gap: .35rem; }
 .swatch { width: 26px; height: 12px; flex: none; }
+.tables { display: flex; flex-wrap: wrap; gap: 0 2.5rem; } .tables > div { max-width: 100%; }
 .scroll { overflow-x: auto; margin: .25rem 0 .5rem; }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }

@@ -20,7 +20,10 @@ std::string short_count(double count);      ///< "950", "1.23 M"
 std::string text_of(const Budget& budget);  ///< "16 spp", "µ 0.5", "2 s"
 std::string text_of(const Ratio& ratio);    ///< "0.52", "≤ 0.5", "not reached", "–"
 
-/// CSS classes that give methods their colour and charts their marks, by place in the comparison.
+/// A method's colour and mark in all reports: its place among all methods.
+std::size_t series_of(const Method& method);
+
+/// CSS classes that give methods their colour and charts their marks, by series_of().
 std::string series_class(std::size_t index);
 
 /// Mark of a method around (x, y) as SVG; shapes differ too, for those who do not see colours.

@@ -41,6 +41,14 @@ constexpr Method kMethods[] = {
      monte_carlo<Sampler::sobol>, Filter::nlm},
     {"mc+svgf", "mc-sobol, spatial part of SVGF (Schied et al. 2017)", Knob::spp, true,
      monte_carlo<Sampler::sobol>, Filter::svgf},
+    {"mc+oidn",
+     "mc-sobol, Open Image Denoise (bench/peers/oidn.py)",
+     Knob::spp,
+     true,
+     monte_carlo<Sampler::sobol>,
+     {},
+     "mc-sobol",
+     "oidn"},
 };
 
 const char* name_of(wedge::Method method) {

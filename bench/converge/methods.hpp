@@ -21,6 +21,10 @@ struct Method {
     bool biased;  ///< filtered: no z-test, but a map of the bias
     void (*configure)(RenderOptions&);
     std::optional<baselines::Filter> filter = {};  ///< over the finished render
+    /// Made by somebody else from the finished runs of this method (bench/peers), and taken where
+    /// they are there; `external_tag` ends the keys of its runs.
+    const char* external_source = nullptr;
+    const char* external_tag = nullptr;
 };
 
 std::span<const Method> all_methods();

@@ -19,7 +19,7 @@ std::string chart_figure(const SceneAnalysis& scene, std::size_t metric, bool by
     chart.title = scene.scene->name + ": " + chart.y_label + " over " + chart.x_label;
     chart.guide_slope = metric == 0 ? -0.5 : 0;
     for (std::size_t i = 0; i < scene.curves.size(); ++i) {
-        Series series{i, scene.curves[i].method->name, {}};
+        Series series{series_of(*scene.curves[i].method), scene.curves[i].method->name, {}};
         for (const Rung& rung : scene.curves[i].rungs)
             series.places.push_back(
                 {by_rays ? rung.rays : rung.time_s, rung.metrics[metric],
@@ -79,10 +79,11 @@ std::string charts_section(const SceneAnalysis& scene) {
 
 std::string comparison_section(const SceneAnalysis& scene) {
     const std::string yardstick = scene.curves[scene.yardstick].method->name;
-    return "<h3>Ratios to " + yardstick + "</h3>\n" +
+    return "<h3>Ratios to " + yardstick + "</h3>\n<div class=\"tables\">" +
            ratio_table(scene, "RMSE, equal time", &Comparison::error_at_equal_time, true) +
            ratio_table(scene, "time, equal RMSE", &Comparison::time_at_equal_error, false) +
-           ratio_table(scene, "rays, equal RMSE", &Comparison::rays_at_equal_error, false);
+           ratio_table(scene, "rays, equal RMSE", &Comparison::rays_at_equal_error, false) +
+           "</div>\n";
 }
 
 std::string pictures_section(const SceneAnalysis& scene) {

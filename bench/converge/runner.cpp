@@ -26,6 +26,13 @@ struct Task {
     std::string key;
 };
 
+std::string key_of(const std::string& digest, const Method& method, const Budget& budget,
+                   uint32_t seed, const DeviceInfo& device) {
+    if (!method.external_source) return run_key(digest, method, budget, seed, device);
+    return run_key(digest, find_method(method.external_source), budget, seed, device) + "-" +
+           method.external_tag;
+}
+
 /// Seeds outside, methods inside.
 std::vector<Task> all_tasks(const Config& config, const std::string& digest,
                             const DeviceInfo& device) {
@@ -41,7 +48,7 @@ std::vector<Task> all_tasks(const Config& config, const std::string& digest,
                 if (rung < budgets.size())
                     tasks.push_back(
                         {&method, budgets[rung], uint32_t(seed),
-                         run_key(digest, method, budgets[rung], uint32_t(seed), device)});
+                         key_of(digest, method, budgets[rung], uint32_t(seed), device)});
             }
     return tasks;
 }
@@ -61,11 +68,13 @@ std::map<std::string, RunRecord> finished_runs(const Config& config, const std::
     return runs;
 }
 
-/// What analysis and others who want to recompute need; variance only says something of unfiltered
-/// pixels.
-Image kept_layers(const Image& image, bool with_variance) {
+/// What analysis and others who want to recompute need. Variance only says something of unfiltered
+/// pixels; those are what other denoisers may start from, too.
+Image kept_layers(const Image& image, bool is_unfiltered) {
     std::vector<std::string> names{"R", "G", "B"};
-    if (with_variance) names.insert(names.end(), {"variance.R", "variance.G", "variance.B"});
+    if (is_unfiltered)
+        names.insert(names.end(), {"variance.R", "variance.G", "variance.B", "albedo.R", "albedo.G",
+                                   "albedo.B", "N.X", "N.Y", "N.Z"});
     Image kept{image.width, image.height, names, {}, image.metadata};
     std::vector<std::size_t> from;
     for (const std::string& name : names) from.push_back(std::size_t(image.channel(name)));
@@ -101,14 +110,16 @@ class SceneRunner {
         const device::Device device(config_.device);
         std::map<std::string, RunRecord> done = finished_runs(config_, program);
         const std::vector<Task> tasks = all_tasks(config_, out_.digest, device.info());
-        const auto missing = std::count_if(tasks.begin(), tasks.end(),
-                                           [&](const Task& t) { return !done.count(t.key); });
+        const auto missing = std::count_if(tasks.begin(), tasks.end(), [&](const Task& t) {
+            return !done.count(t.key) && !t.method->external_source;
+        });
         if (missing < std::ptrdiff_t(tasks.size()))
             say_(fmt::format("{}: {} of {} runs are there from before", out_.name,
                              tasks.size() - std::size_t(missing), tasks.size()));
         std::ptrdiff_t number = 0;
         for (const Task& task : tasks) {
             auto found = done.find(task.key);
+            if (found == done.end() && task.method->external_source) continue;
             if (found == done.end()) {
                 ++number;
                 found = done.emplace(task.key, run(task, program)).first;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "bench/converge/markdown.hpp"
@@ -19,14 +20,34 @@ void check_names(const std::vector<SceneRuns>& scenes) {
             throw Error(ErrorKind::usage, scene.name + ": two scenes have this name");
 }
 
+/// Methods of others may not have been run; one that is not there in every scene is left out.
+std::vector<std::string> drop_absent_methods(const std::vector<SceneRuns>& scenes, Config& config) {
+    std::vector<std::string> warnings;
+    std::erase_if(config.methods, [&](const std::string& name) {
+        const auto has_runs = [&](const SceneRuns& scene) {
+            return std::any_of(scene.runs.begin(), scene.runs.end(),
+                               [&](const RunRecord& run) { return run.method == name; });
+        };
+        if (std::all_of(scenes.begin(), scenes.end(), has_runs)) return false;
+        warnings.push_back(fmt::format(
+            "{} is left out: it is run by bench/peers/{}.py, to be called with {} now; then this "
+            "command again",
+            name, find_method(name).external_tag, config.folder.string()));
+        return true;
+    });
+    return warnings;
+}
+
 }  // namespace
 
-Outcome converge(const Config& config, const LoadOptions& load,
+Outcome converge(const Config& asked, const LoadOptions& load,
                  const std::filesystem::path& markdown, const Say& say) {
     std::vector<SceneRuns> scenes;
-    for (const std::string& file : config.scenes)
-        scenes.push_back(run_scene(config, file, load, say));
+    for (const std::string& file : asked.scenes)
+        scenes.push_back(run_scene(asked, file, load, say));
     check_names(scenes);
+    Config config = asked;
+    const std::vector<std::string> absent = drop_absent_methods(scenes, config);
 
     // Pictures need the images, so all stay until the report is written.
     std::vector<std::vector<Image>> images;
@@ -39,7 +60,7 @@ Outcome converge(const Config& config, const LoadOptions& load,
     }
     const Analysis analysis = summarise(std::move(analysed));
 
-    Outcome outcome{config.folder / "report.html", config.folder / "results.json", {}};
+    Outcome outcome{config.folder / "report.html", config.folder / "results.json", absent};
     for (const SceneAnalysis& scene : analysis.scenes)
         outcome.warnings.insert(outcome.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());

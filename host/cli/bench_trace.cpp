@@ -178,6 +178,9 @@ void register_bench(CLI::App& app) {
     command->add_option("--repeats", arguments->options.repeats, "Timed runs of each kind of ray")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    command->add_option("--builds", arguments->options.build_repeats, "Timed builds of each tree")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
     command
         ->add_option("--bvh", arguments->layout,
                      "Layout of the tree: auto, wide, compressed, binary or all")

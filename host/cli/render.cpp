@@ -140,6 +140,9 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--seed", a.seed, "Seed of all random numbers, 0 to 2^64 - 1; default: 0");
     command.add_option("--method", a.method, "mc or aaf; default: mc");
     command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 1");
+    command.add_option("--bvh", a.bvh,
+                       "Layout of the tree: auto, wide, compressed or binary; default: auto");
+    command.add_option("--bvh-quality", a.bvh_quality, "medium or high; default: medium");
     command.add_option("--sampler", a.sampler, "sobol, stratified or hash; default: sobol");
     command.add_option(
         "--sample-offset", a.sample_offset,

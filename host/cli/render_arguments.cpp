@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "host/cli/bvh_options.hpp"
 #include "host/cli/layers.hpp"
 #include "host/cli/numbers.hpp"
 #include "wedge/error.hpp"
@@ -72,6 +73,16 @@ Method parse_method(const std::string& name) {
     refuse("--method " + name + ": no such method; known: mc, aaf");
 }
 
+BvhOptions parse_bvh(const RenderArguments& a) {
+    const auto layout = kBvhLayouts.find(a.bvh);
+    if (layout == kBvhLayouts.end())
+        refuse("--bvh " + a.bvh + ": no such layout; known: auto, wide, compressed, binary");
+    const auto quality = kBvhQualities.find(a.bvh_quality);
+    if (quality == kBvhQualities.end())
+        refuse("--bvh-quality " + a.bvh_quality + ": no such quality; known: medium, high");
+    return {.layout = layout->second, .quality = quality->second};
+}
+
 Sampler parse_sampler(const std::string& name) {
     for (Sampler sampler : {Sampler::sobol, Sampler::stratified, Sampler::hash})
         if (name == to_string(sampler)) return sampler;
@@ -111,6 +122,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.seed = parse_seed(arguments.seed);
     job.options.sample_offset = arguments.sample_offset;
     job.options.sampler = parse_sampler(arguments.sampler);
+    job.options.bvh = parse_bvh(arguments);
     job.options.method = parse_method(arguments.method);
     if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));
     job.options.mu = arguments.mu;

@@ -21,6 +21,7 @@ struct RenderArguments {
     std::string size, crop, pixel;
     std::string sampler = "sobol", method = "mc";
     float mu = 1;
+    std::string bvh = "auto", bvh_quality = "medium";
     std::string stats_file;
     std::optional<float> exposure;
     std::string tone = "srgb";

@@ -125,9 +125,12 @@ cl::Kernel Program::kernel(const char* name) const {
 
 std::vector<Program> build_programs(Device& device, std::span<const ProgramRequest> requests,
                                     const std::string& kernel_dir) {
+    // Oclgrind's compiler crashes when it is called twice at the same time.
+    const auto when =
+        device.info().platform == "Oclgrind" ? std::launch::deferred : std::launch::async;
     std::vector<std::future<Program>> builds;
     for (const ProgramRequest& request : requests) {
-        builds.push_back(std::async(std::launch::async, [&device, &request, &kernel_dir] {
+        builds.push_back(std::async(when, [&device, &request, &kernel_dir] {
             return build_one(device, request, kernel_dir);
         }));
     }

@@ -4,13 +4,60 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <cstring>
 
+#include "host/base/parallel.hpp"
 #include "host/bvh/binarize.hpp"
 #include "host/bvh/compress.hpp"
 #include "wedge/error.hpp"
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 namespace wedge::rendering {
 namespace {
+
+// Smaller arrays gain nothing from large pages.
+constexpr uint64_t kLargePagesFrom_bytes = uint64_t(8) << 20;
+constexpr std::size_t kCopyGrain_bytes = std::size_t(2) << 20;
+
+/// A CPU's rays jump about in the tree: with pages of 2 MiB in place of 4 KiB they wait less for
+/// their addresses. `memory` must not have been touched yet. A hint, which may be ignored.
+void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] uint64_t bytes) {
+#ifdef MADV_HUGEPAGE
+    constexpr std::uintptr_t kPage = 4096;
+    const auto first = (reinterpret_cast<std::uintptr_t>(memory) + kPage - 1) / kPage * kPage;
+    const auto last = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
+    if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#endif
+}
+
+/// As Device::upload. Where the device's memory is the host's, its pages are large, and all cores
+/// copy.
+template <typename T>
+cl::Buffer upload_array(device::Device& device, std::span<const T> items, const char* what) {
+    const uint64_t bytes = items.size_bytes();
+    if (device.info().type != DeviceType::cpu || bytes < kLargePagesFrom_bytes)
+        return device.upload(items, what);
+    try {
+        cl::Buffer buffer = device.allocate(bytes, what, CL_MEM_READ_ONLY);
+        const cl::CommandQueue& queue = device.queue();
+        char* memory = static_cast<char*>(
+            queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes));
+        ask_for_large_pages(memory, bytes);
+        const char* from = reinterpret_cast<const char*>(items.data());
+        parallel_ranges(bytes, kCopyGrain_bytes, [&](std::size_t begin, std::size_t end) {
+            std::memcpy(memory + begin, from + begin, end - begin);
+        });
+        queue.enqueueUnmapMemObject(buffer, memory);
+        device.finish();
+        return buffer;
+    } catch (const cl::Error&) {
+        return device.upload(items, what);  // a device that cannot map
+    }
+}
 
 /// log2 of the number of items a chunk holds; chunks are full but for the last.
 int chunk_shift(uint64_t largest_bytes, std::size_t item_bytes) {
@@ -31,8 +78,8 @@ std::vector<cl::Buffer> upload_chunks(device::Device& device, std::span<const T>
                                 WEDGE_TREE_CHUNKS));
     std::vector<cl::Buffer> buffers;
     for (std::size_t first = 0; first < items.size(); first += chunk)
-        buffers.push_back(
-            device.upload(items.subspan(first, std::min(chunk, items.size() - first)), what));
+        buffers.push_back(upload_array(
+            device, items.subspan(first, std::min(chunk, items.size() - first)), what));
     if (buffers.empty()) buffers.push_back(device.upload(items, what));
     while (buffers.size() < WEDGE_TREE_CHUNKS) buffers.push_back(buffers.front());
     return buffers;
@@ -45,8 +92,8 @@ void upload_arrays(device::Device& device, const Nodes& nodes, const Blocks& blo
     const std::span block_span(blocks.data(), blocks.size());
     tree.bytes = node_span.size_bytes() + block_span.size_bytes();
     if (std::max(node_span.size_bytes(), block_span.size_bytes()) <= largest_bytes) {
-        tree.nodes = {device.upload(node_span, "BVH nodes")};
-        tree.blocks = {device.upload(block_span, "BVH triangles")};
+        tree.nodes = {upload_array(device, node_span, "BVH nodes")};
+        tree.blocks = {upload_array(device, block_span, "BVH triangles")};
         return;
     }
     const int node_shift = chunk_shift(largest_bytes, sizeof(nodes[0]));

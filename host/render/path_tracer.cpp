@@ -67,7 +67,7 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     Stopwatch watch;
     const FlatScene flat = flatten(scene);
     stats.flatten_s = watch.lap();
-    const bvh::Bvh bvh = bvh::build(flat.positions, flat.triangles);
+    const bvh::Bvh bvh = bvh::build(flat.positions, flat.triangles, settings.bvh.quality);
     stats.triangles = flat.triangles.size();
     stats.degenerate_triangles = bvh.degenerate_count;
     stats.non_finite_triangles = bvh.non_finite_count;
@@ -78,7 +78,7 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
             "the scene has no light, no shining material and no background: it will be black");
     const uint64_t kept = flat.triangles.size() - bvh.degenerate_count - bvh.non_finite_count;
     if (kept == 0) log_warning("the scene has no triangle that can be rendered");
-    scene_ = upload_scene(device_, flat, bvh, scene.textures);
+    scene_ = upload_scene(device_, flat, bvh, scene.textures, settings.bvh);
     const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);
     frame_ = params;
     upload_frame(settings.crop);

@@ -23,6 +23,7 @@ struct PathSettings {
     int log2_samples = 10;  ///< FrameParams::log2_samples
     int strata = 1;         ///< FrameParams::strata
     uint32_t local_size = 0;
+    BvhOptions bvh;
     std::string kernel_dir;
 };
 

@@ -76,6 +76,7 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
         if (options.sample_offset != 0)
             refuse("the method aaf decides its samples itself: no sample offset");
     }
+    settings.bvh = options.bvh;
     settings.seed = folded(options.seed);
     settings.sampler = options.sampler;
     const bool open_ended = options.time_limit_s && !options.samples_per_pixel;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "wedge/bvh.hpp"
 #include "wedge/device.hpp"
 #include "wedge/image.hpp"
 #include "wedge/scene.hpp"
@@ -56,6 +57,7 @@ struct RenderOptions {
     /// Most bytes that the film (112 a pixel) may take on the device; larger films are rendered in
     /// bands, method mc only. 0: what the device allows.
     uint64_t film_bytes = 0;
+    BvhOptions bvh;            ///< how rays find triangles (docs/tracing.md)
     std::string kernel_dir;    ///< read kernels from this source tree instead of the program
     uint32_t local_size = 0;   ///< work-group size; 0: what suits the device
     uint32_t tile_pixels = 0;  ///< pixels an enqueue; 0: what suits the device
