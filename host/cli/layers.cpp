@@ -56,6 +56,13 @@ std::vector<std::string> parse_layers(const std::vector<std::string>& names) {
     return layers;
 }
 
+bool holds_only(const Image& image, const std::vector<std::string>& layers) {
+    return std::all_of(image.channels.begin(), image.channels.end(), [&](const auto& channel) {
+        return is_beauty(channel) ||
+               std::count(layers.begin(), layers.end(), layer_of(channel)) > 0;
+    });
+}
+
 Image select_layers(const Image& image, const std::vector<std::string>& layers) {
     Image selected;
     selected.width = image.width;
@@ -70,7 +77,6 @@ Image select_layers(const Image& image, const std::vector<std::string>& layers) 
         sources.push_back(i);
         selected.channels.push_back(channel);
     }
-    if (sources.size() == image.channels.size()) return image;
 
     const std::size_t pixel_count = std::size_t(image.width) * image.height;
     selected.pixels.reserve(pixel_count * sources.size());

@@ -15,6 +15,9 @@ std::string layer_names();
 /// spelled in files. Throws Error(usage) that lists the known ones.
 std::vector<std::string> parse_layers(const std::vector<std::string>& names);
 
+/// Whether select_layers would give `image` itself.
+bool holds_only(const Image& image, const std::vector<std::string>& layers);
+
 /// R, G, B, A and the channels of `layers`, in the order of `image`.
 Image select_layers(const Image& image, const std::vector<std::string>& layers);
 

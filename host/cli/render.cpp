@@ -56,9 +56,14 @@ void write_outputs(const RenderArguments& arguments, const RenderJob& job, const
     std::unique_ptr<Error> first_error;
     for (const fs::path& file : job.outputs) {
         try {
-            const bool is_exr = output_format(file) == OutputFormat::exr;
-            write_output(file, is_exr ? select_layers(image, job.layers) : image,
-                         {exposure, arguments.tone});
+            // Images of gigabytes are not copied in vain.
+            const bool as_it_is =
+                output_format(file) != OutputFormat::exr || holds_only(image, job.layers);
+            const Develop develop{exposure, arguments.tone};
+            if (as_it_is)
+                write_output(file, image, develop);
+            else
+                write_output(file, select_layers(image, job.layers), develop);
             fmt::print("{}\n", file.string());
         } catch (const Error& error) {
             if (first_error)

@@ -47,6 +47,14 @@ void require_usable(const fs::path& file, const OIIO::ImageSpec& spec) {
     if (std::size_t(spec.width) * std::size_t(spec.height) > kMaxPixels)
         fail(file, fmt::format("{} x {} pixels are more than the {} that are taken; scale it down",
                                spec.width, spec.height, kMaxPixels));
+    // Decoders fill in what is missing, and of a few damaged bytes make gigabytes.
+    constexpr std::size_t kSurelyFine = std::size_t(1) << 24, kMostPerByte = 1024;
+    const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
+    std::error_code error;
+    const std::size_t bytes = fs::file_size(file, error);
+    if (pixels > kSurelyFine && !error && pixels / kMostPerByte > bytes)
+        fail(file, fmt::format("it claims {} x {} pixels in {} bytes; the file is damaged",
+                               spec.width, spec.height, bytes));
     if (is_cmyk(spec)) fail(file, "its colours are CMYK; convert it to RGB");
 }
 
