@@ -38,7 +38,8 @@ std::string short_number(double value) {
     if (value == 0) return "0";
     const double size = std::abs(value);
     if (size >= 1e5 || size < 1e-4) return fmt::format("{:.2e}", value);
-    const int decimals = std::max(0, 2 - int(std::floor(std::log10(size))));
+    // Not 1.000 for what rounds up to 1.
+    const int decimals = std::max(0, 2 - int(std::floor(std::log10(size * (1 + 0.0005)))));
     return fmt::format("{:.{}f}", value, decimals);
 }
 
