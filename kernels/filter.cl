@@ -216,8 +216,9 @@ __kernel void filter_bandwidth(__constant FilterSettings* settings,
         if (most > 0.0f) samples += most * surface_sums[id].position.w / seen;
     }
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
+    const float least = (float)settings->least_samples;
     const float power = exp2(round(log2(clamp(samples, probes, cap))));
-    const uint end = (uint)clamp(power, probes, cap);
+    const uint end = (uint)clamp(power, least, cap);
     const bool edge = shows_edge(film, surface_sums, x, y, width, height);
     sample_ends[pixel] = (uint2)(end, edge ? end * (uint)settings->camera_rays_at_edges : end);
     if (second_half(end, (uint)probes) >= (uint)probes)

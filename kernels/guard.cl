@@ -93,7 +93,19 @@ inline float4 choose(float4 errors, __global const float4* full, __global const 
     return (float4)(mix(unfiltered.xyz, filtered.xyz, share), narrow ? 0.5f * share : share);
 }
 
-__kernel void guard_choose(__global const HalfLight* restrict unfiltered,
+/* As `choose`, but with the filter everywhere or nowhere. */
+inline float4 choose_by_mode(int mode, float4 errors, __global const float4* full,
+                             __global const float4* half_width, float4 unfiltered, float* error) {
+    if (mode == WEDGE_FILTER_MODE_GUARDED)
+        return choose(errors, full, half_width, unfiltered, error);
+    const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
+    *error = plain ? fmax(errors.x, 0.0f) : errors.z;
+    return plain ? (float4)(0.5f * (full[0].xyz + full[1].xyz), 1.0f)
+                 : (float4)(unfiltered.xyz, 0.0f);
+}
+
+__kernel void guard_choose(__constant FilterSettings* settings,
+                           __global const HalfLight* restrict unfiltered,
                            __global const HalfLight* restrict full,
                            __global const HalfLight* restrict half_width,
                            __global const FilterErrors* restrict errors,
@@ -105,10 +117,11 @@ __kernel void guard_choose(__global const HalfLight* restrict unfiltered,
     GuardedPixel g;
     g.error = (float4)(0.0f);
     float error;
-    g.direct = choose(errors[id].direct, full[id].direct, half_width[id].direct,
+    const int mode = settings->mode;
+    g.direct = choose_by_mode(mode, errors[id].direct, full[id].direct, half_width[id].direct,
                       (u->direct[0] + u->direct[1]) / n, &error);
     g.error.x = error;
-    g.indirect = choose(errors[id].indirect, full[id].indirect, half_width[id].indirect,
+    g.indirect = choose_by_mode(mode, errors[id].indirect, full[id].indirect, half_width[id].indirect,
                         (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
     guarded[id] = g;

@@ -18,9 +18,12 @@ void monte_carlo(RenderOptions& o) {
     o.sampler = kSampler;
 }
 
-template <wedge::Method kMethod>
-void by_method(RenderOptions& o) {
-    o.method = kMethod;
+template <FilterMode kFilter, bool kAdaptive, Sampler kSampler = Sampler::sobol>
+void aaf(RenderOptions& o) {
+    o.method = wedge::Method::aaf;
+    o.filter = kFilter;
+    o.adaptive = kAdaptive;
+    o.sampler = kSampler;
 }
 
 // The first unbiased method of a comparison is its yardstick.
@@ -30,7 +33,15 @@ constexpr Method kMethods[] = {
     {"mc-stratified", "Monte Carlo, jittered strata", Knob::spp, false,
      monte_carlo<Sampler::stratified>},
     {"mc-hash", "Monte Carlo, independent samples", Knob::spp, false, monte_carlo<Sampler::hash>},
-    {"aaf", "axis-aligned filtering", Knob::mu, true, by_method<wedge::Method::aaf>},
+    {"aaf", "axis-aligned filtering, guarded", Knob::mu, true, aaf<FilterMode::guarded, true>},
+    {"aaf-plain", "axis-aligned filtering as in the papers, no guard", Knob::mu, true,
+     aaf<FilterMode::plain, true>},
+    {"aaf-adaptive", "its adaptive samples, not filtered", Knob::mu, false,
+     aaf<FilterMode::none, true>},
+    {"aaf-filter", "its filter, the same samples everywhere", Knob::spp, true,
+     aaf<FilterMode::plain, false>},
+    {"aaf-stratified", "axis-aligned filtering, no guard, jittered strata", Knob::mu, true,
+     aaf<FilterMode::plain, true, Sampler::stratified>},
     {"mc+gaussian", "mc-sobol, Gaussian of 2 px", Knob::spp, true, monte_carlo<Sampler::sobol>,
      Filter::gaussian},
     {"mc+bilateral", "mc-sobol, cross-bilateral filter", Knob::spp, true,
@@ -95,6 +106,10 @@ nlohmann::json settings_json(const Method& method) {
                                {"sampler", to_string(options.sampler)},
                                {"sample_offset", options.sample_offset}};
     if (method.filter) settings["filter"] = method.name;
+    if (options.method == wedge::Method::aaf) {
+        settings["aaf_filter"] = to_string(options.filter);
+        settings["adaptive"] = options.adaptive;
+    }
     if (method.knob == Knob::mu)
         settings["samples_per_pixel"] =
             options.samples_per_pixel ? nlohmann::json(*options.samples_per_pixel) : "by mu";
@@ -105,7 +120,9 @@ std::string render_arguments(const RenderOptions& options) {
     std::string text = fmt::format("--method {} --sampler {} --seed {}", name_of(options.method),
                                    to_string(options.sampler), options.seed);
     if (options.samples_per_pixel) text += fmt::format(" --spp {}", *options.samples_per_pixel);
-    if (options.method != wedge::Method::mc) text += fmt::format(" --mu {:g}", options.mu);
+    if (options.method == wedge::Method::aaf)
+        text += fmt::format(" --mu {:g} --filter {}{}", options.mu, to_string(options.filter),
+                            options.adaptive ? "" : " --uniform");
     return text;
 }
 

@@ -145,6 +145,13 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--seed", a.seed, "Seed of all random numbers, 0 to 2^64 - 1; default: 0");
     command.add_option("--method", a.method, "mc or aaf; default: mc");
     command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 1");
+    command.add_option("--filter", a.filter,
+                       "aaf: guarded, plain (as in the papers) or none; default: guarded");
+    command.add_flag("--uniform", a.uniform,
+                     "aaf: the same number of samples in every pixel, --spp or 16");
+    command.add_option("--integrator", a.integrator,
+                       "path, or ao: ambient occlusion, white surfaces under a white sky; default: "
+                       "path");
     command.add_option("--bvh", a.bvh,
                        "Layout of the tree: auto, wide, compressed or binary; default: auto");
     command.add_option("--bvh-quality", a.bvh_quality, "medium or high; default: medium");

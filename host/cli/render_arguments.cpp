@@ -89,6 +89,18 @@ Sampler parse_sampler(const std::string& name) {
     refuse("--sampler " + name + ": no such sampler; known: sobol, stratified, hash");
 }
 
+FilterMode parse_filter(const std::string& name) {
+    for (FilterMode mode : {FilterMode::guarded, FilterMode::plain, FilterMode::none})
+        if (name == to_string(mode)) return mode;
+    refuse("--filter " + name + ": no such way to filter; known: guarded, plain, none");
+}
+
+bool is_ambient_occlusion(const std::string& integrator) {
+    if (integrator == "path") return false;
+    if (integrator == "ao") return true;
+    refuse("--integrator " + integrator + ": no such integrator; known: path, ao");
+}
+
 std::vector<fs::path> output_files(const RenderArguments& arguments) {
     std::vector<fs::path> files(arguments.outputs.begin(), arguments.outputs.end());
     if (files.empty()) {
@@ -126,6 +138,10 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.method = parse_method(arguments.method);
     if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));
     job.options.mu = arguments.mu;
+    job.options.filter = parse_filter(arguments.filter);
+    job.options.adaptive = !arguments.uniform;
+    job.ambient_occlusion = is_ambient_occlusion(arguments.integrator);
+    if (job.ambient_occlusion) job.options.bounces = 0;
     job.options.kernel_dir = arguments.kernel_dir;
     job.options.resume_file = arguments.resume_file;
     job.options.checkpoint_interval_s = arguments.checkpoint_s;
@@ -143,6 +159,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
 
 void apply_film(const RenderJob& job, Scene& scene) {
     if (job.film) scene.film = *job.film;
+    if (job.ambient_occlusion) make_ambient_occlusion(scene);
     const Film& film = scene.film;
     if (const auto& crop = job.options.crop) {
         // Differences, because sums of large numbers could overflow.

@@ -19,7 +19,8 @@ struct RenderArguments {
     std::vector<std::string> layers;
     std::vector<std::string> asset_paths;
     std::string size, crop, pixel;
-    std::string sampler = "sobol", method = "mc";
+    std::string sampler = "sobol", method = "mc", filter = "guarded", integrator = "path";
+    bool uniform = false;
     float mu = 1;
     std::string bvh = "auto", bvh_quality = "medium";
     std::string stats_file;
@@ -45,6 +46,7 @@ struct RenderJob {
     std::vector<std::filesystem::path> outputs;
     std::vector<std::string> layers;  ///< of the EXR, beside R, G, B, A; see layers.hpp
     std::optional<Film> film;
+    bool ambient_occlusion = false;
     std::optional<Pixel> pixel;
 };
 

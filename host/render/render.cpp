@@ -53,6 +53,10 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:version"] = version();
     m["wedge:method"] = options.method == Method::aaf ? "aaf" : "mc";
     if (options.method == Method::aaf) m["wedge:mu"] = fmt::format("{:g}", options.mu);
+    if (options.method == Method::aaf) {
+        m["wedge:filter"] = to_string(options.filter);
+        m["wedge:adaptive"] = options.adaptive ? "yes" : "no";
+    }
     m["wedge:sampler"] = to_string(settings.sampler);
     m["wedge:seed"] = std::to_string(options.seed);
     m["wedge:bounces"] = std::to_string(settings.bounces);
@@ -125,6 +129,18 @@ const char* to_string(Sampler sampler) {
             return "hash";
         case Sampler::stratified:
             return "stratified";
+    }
+    return "unknown";
+}
+
+const char* to_string(FilterMode mode) {
+    switch (mode) {
+        case FilterMode::guarded:
+            return "guarded";
+        case FilterMode::plain:
+            return "plain";
+        case FilterMode::none:
+            return "none";
     }
     return "unknown";
 }

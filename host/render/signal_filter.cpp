@@ -21,6 +21,18 @@ constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film'
 constexpr cl_uint kScaleArg = 8;  // of filter_x and filter_y
 constexpr cl_uint kLightArg = 4;  // of filter_combine
 
+int mode_of(FilterMode mode) {
+    switch (mode) {
+        case FilterMode::guarded:
+            return WEDGE_FILTER_MODE_GUARDED;
+        case FilterMode::plain:
+            return WEDGE_FILTER_MODE_PLAIN;
+        case FilterMode::none:
+            return WEDGE_FILTER_MODE_NONE;
+    }
+    return WEDGE_FILTER_MODE_GUARDED;
+}
+
 template <typename... Args>
 void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
     cl_uint index = 0;
@@ -46,6 +58,9 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     s.max_samples =
         options.samples_per_pixel.value_or(int(std::lround(kSamplesPerMu * std::max(1.0f, s.mu))));
     s.probe_samples = std::min(kProbeSamples, s.max_samples);
+    if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
+    s.least_samples = options.adaptive ? s.probe_samples : s.max_samples;
+    s.mode = mode_of(options.filter);
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
     s.camera_rays_at_edges = kCameraRaysAtEdges;
@@ -157,7 +172,7 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     set_kernel_args(guard_errors_, unfiltered_, full_, half_width_, errors_, pixels);
     set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
     set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
-    set_kernel_args(choose_, unfiltered_, full_, half_width_, errors_, guarded_, pixels);
+    set_kernel_args(choose_, settings_, unfiltered_, full_, half_width_, errors_, guarded_, pixels);
 }
 
 double SignalFilter::run(std::span<const Launch> launches) {

@@ -27,6 +27,13 @@ const char* to_string(Sampler sampler);
 /// densely as their frequencies ask for, and filtered (docs/method.md); all else as `mc`.
 enum class Method { mc, aaf };
 
+/// What `aaf` does with what it sampled: filters where a guard lets it, filters as the papers do,
+/// or leaves it as it is.
+enum class FilterMode { guarded, plain, none };
+
+/// As users write it: "guarded", "plain", "none".
+const char* to_string(FilterMode mode);
+
 struct Rect {
     int x = 0, y = 0, width = 0, height = 0;  ///< px
 };
@@ -49,6 +56,9 @@ struct RenderOptions {
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
     /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu).
     float mu = 1;
+    FilterMode filter = FilterMode::guarded;  ///< aaf
+    /// aaf: false gives every pixel the same number of samples, samples_per_pixel or the probe's.
+    bool adaptive = true;
     /// A file for the state of the render, method mc only: saved while it runs and at its end, and
     /// gone on from if it is there, to the same bits as without a break. The caller removes it.
     /// Empty: none.

@@ -61,8 +61,8 @@ struct Material {
     int specular_texture = -1;
     int emission_texture = -1;
     /// Both bend the shading normal and move nothing; where both are set, the bump map counts.
-    /// RGB in tangent space, n = 2 rgb - 1: +x along u, +y along v, z off the surface; the texture's
-    /// value_gain multiplies x and y, its value_base is not used.
+    /// RGB in tangent space, n = 2 rgb - 1: +x along u, +y along v, z off the surface; the
+    /// texture's value_gain multiplies x and y, its value_base is not used.
     int normal_texture = -1;
     /// Heights by luminance: value 1 (after gain and base) is as high as a texel is wide.
     int bump_texture = -1;
@@ -143,6 +143,10 @@ struct LoadOptions {
 /// Loads a JSON scene (docs/scene-format.md), or an OBJ file for which a camera and a light are
 /// made up (and said in the log). Throws Error(bad_input) that names file and place.
 Scene load_scene(const std::filesystem::path& file, const LoadOptions& options = {});
+
+/// Takes all lights and colours away and puts a sky of radiance 1 in their place: rendered without
+/// bounces, a pixel is the cosine-weighted share of the hemisphere that nothing hides.
+void make_ambient_occlusion(Scene& scene);
 
 /// Box of all instances in world space, lights included.
 Bounds scene_bounds(const Scene& scene);

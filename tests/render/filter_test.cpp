@@ -107,11 +107,14 @@ RenderOptions filtered(float mu, uint32_t seed = 0) {
     return options;
 }
 
-double channel_rmse(const Image& a, const Image& b, const char* channel) {
-    const std::vector<double> x = channel_values(a, channel), y = channel_values(b, channel);
+double rmse_of(const std::vector<double>& x, const std::vector<double>& y) {
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i) sum += std::pow(x[i] - y[i], 2);
     return std::sqrt(sum / double(x.size()));
+}
+
+double channel_rmse(const Image& a, const Image& b, const char* channel) {
+    return rmse_of(channel_values(a, channel), channel_values(b, channel));
 }
 
 double rmse(const Image& a, const Image& b) {
@@ -251,6 +254,45 @@ TEST_CASE("light_of_the_background_is_filtered_without_bias") {
     const int same = int(std::ceil(channel_mean(frame.image, "spp")));
     const Image plain = render(scene, quick(same, 0)).image;
     CHECK(rmse(frame.image, truth) < 0.6 * rmse(plain, truth));
+}
+
+TEST_CASE("ambient_occlusion_beside_a_wall_is_that_of_the_form_factor") {
+    // A wall of height h hides (1 - d / sqrt(d^2 + h^2)) / 2 of the hemisphere at distance d, if it
+    // is long.
+    Scene scene = make_scene({make_quad({-500, 0, 0}, {0, 0, 40}, {1000, 0, 0}, 0),
+                              make_quad({-500, 0, 0}, {1000, 0, 0}, {0, 2, 0}, 0)},
+                             {lambert(0.2f)});
+    scene.rect_lights = {{.center = {0, 9, 9}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}}};
+    make_ambient_occlusion(scene);
+    scene.film = {3, 61};
+    scene.camera = {
+        .position = {0, 50, 2}, .target = {0, 0, 2}, .up = {0, 0, -1}, .vertical_fov_rad = 0.06f};
+    for (RenderOptions options : {quick(1024, 0), filtered(2)}) {
+        const Image image = render(scene, options).image;
+        for (int y : {10, 30, 50}) {
+            const double d = 2 + (y + 0.5 - 30.5) / 61 * 2 * 50 * std::tan(0.03);
+            CHECK(image.at(1, y, image.channel("G")) ==
+                  doctest::Approx(0.5 * (1 + d / std::sqrt(d * d + 4))).epsilon(0.03));
+        }
+    }
+}
+
+TEST_CASE("parts_of_the_method_can_be_had_alone") {
+    Scene scene = make_room(0);
+    scene.film = {32, 24};
+    RenderOptions options = filtered(1);
+    options.bounces = 1;
+    options.filter = FilterMode::none;
+    const Image none = render(scene, options).image;
+    for (const auto& [a, b] : {std::pair("R", "unfiltered.R"), {"B", "unfiltered.B"}})
+        CHECK(rmse_of(channel_values(none, a), channel_values(none, b)) <
+              1e-5 * channel_mean(none, a));
+    options.filter = FilterMode::plain;
+    for (double share : channel_values(render(scene, options).image, "guard.indirect"))
+        CHECK(share == 1);
+    options.adaptive = false;
+    options.samples_per_pixel = 24;
+    for (double samples : channel_values(render(scene, options).image, "spp")) CHECK(samples == 24);
 }
 
 TEST_CASE("the_guard_takes_back_filters_that_do_harm") {

@@ -79,8 +79,15 @@ typedef struct FilterSettings {
     int probe_samples, max_samples;
     int max_radius_px;           /* of a filter */
     int camera_rays_at_edges;    /* for each sample */
+    int least_samples;           /* that every pixel gets, whatever its frequencies */
+    int mode;                    /* WEDGE_FILTER_MODE_* */
 } FilterSettings;
-WEDGE_ASSERT_SIZE(FilterSettings, 40);
+WEDGE_ASSERT_SIZE(FilterSettings, 48);
+
+/* What is done with what was sampled: guarded filters, filters everywhere, none. */
+#define WEDGE_FILTER_MODE_GUARDED 0
+#define WEDGE_FILTER_MODE_PLAIN 1
+#define WEDGE_FILTER_MODE_NONE 2
 
 WEDGE_SHARED_END
 
