@@ -13,9 +13,10 @@ constexpr int kProbeSamples = 16;       // thesis, section 4.5; for shadows it t
 constexpr float kAlphaDirect = 1;       // section 3.6
 constexpr float kAlphaIndirect = 0.3f;  // section 4.5
 constexpr float kGaussian = 3;          // k of eq. 3.13
-constexpr float kUniform = 4.5;        // flat lights have side lobes; the thesis takes mu = 3 for 2
-constexpr float kSamplesPerMu = 100;   // the cap
-constexpr int kCameraRaysAtEdges = 4;  // for each sample: they cost less than paths
+constexpr float kUniform = 4.5;       // flat lights have side lobes; the thesis takes mu = 3 for 2
+constexpr float kSamplesPerMu = 100;  // the cap
+// Camera rays for each path: they are cheaper the longer paths are.
+constexpr int kCameraRaysWithBounces = 4, kCameraRaysAlone = 2;
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
 constexpr cl_uint kScaleArg = 8;  // of filter_x and filter_y
@@ -63,7 +64,8 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     s.mode = mode_of(options.filter);
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
-    s.camera_rays_at_edges = kCameraRaysAtEdges;
+    const int bounces = options.bounces.value_or(scene.defaults.bounces);
+    s.camera_rays_at_edges = bounces > 0 ? kCameraRaysWithBounces : kCameraRaysAlone;
     s.pixel_angle = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(scene.film.height);
     return s;
 }
