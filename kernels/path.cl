@@ -257,18 +257,17 @@ inline void add_unfiltered(const PixelSignals* signals, float3 direct, float3 in
     signals->unfiltered->direct[half_index] += (float4)(direct, 1.0f);
     signals->unfiltered->indirect[half_index].xyz += indirect;
 }
-#endif
 
-#if WEDGE_SIGNALS > 0
 #define WEDGE_IS_WHOLE_PATH (!signals.camera_only)
 #else
 #define WEDGE_IS_WHOLE_PATH true
 #endif
 
-/* WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel at a time. */
 /* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel +
-   pixel_count) of the crop, counted along its rows; with filters, no more than sample_ends says. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH:
-   sums are taken batch by batch, so that any split of the samples into launches adds up alike. */
+   pixel_count) of the crop, counted along its rows; with filters, no more than sample_ends says. Both sample
+   numbers are multiples of WEDGE_SAMPLE_BATCH: sums are taken batch by batch, so that any split of the samples into
+   launches adds up alike. WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel
+   at a time. */
 __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCENE_PARAMS,
                           __global FilmPixel* restrict film, uint first_pixel, uint pixel_count,
                           uint first_sample,
