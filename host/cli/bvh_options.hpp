@@ -8,11 +8,10 @@
 
 namespace wedge::cli {
 
-inline const std::map<std::string, BvhLayout> kBvhLayouts = {
-    {"auto", BvhLayout::automatic},
-    {"wide", BvhLayout::wide},
-    {"compressed", BvhLayout::compressed},
-    {"binary", BvhLayout::binary}};
+inline const std::map<std::string, BvhLayout> kBvhLayouts = {{"auto", BvhLayout::automatic},
+                                                             {"wide", BvhLayout::wide},
+                                                             {"compressed", BvhLayout::compressed},
+                                                             {"binary", BvhLayout::binary}};
 
 inline const std::map<std::string, BvhQuality> kBvhQualities = {{"medium", BvhQuality::medium},
                                                                 {"high", BvhQuality::high}};

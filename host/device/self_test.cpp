@@ -14,10 +14,10 @@
 #include "host/device/status.hpp"
 #include "wedge/error.hpp"
 #include "wedge/shared/bvh.h"
+#include "wedge/shared/filter.h"
 #include "wedge/shared/frame.h"
 #include "wedge/shared/replay.h"
 #include "wedge/shared/scene.h"
-#include "wedge/shared/filter.h"
 
 namespace wedge::device {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "host/scene/asset_search.hpp"
 #include "host/base/edit_distance.hpp"
+#include "host/scene/asset_search.hpp"
 #include "host/scene/json_reader.hpp"
 #include "host/scene/lights.hpp"
 #include "host/scene/materials.hpp"

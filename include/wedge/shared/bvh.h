@@ -14,13 +14,14 @@ typedef struct BvhNode {
 } BvhNode;
 WEDGE_ASSERT_SIZE(BvhNode, 224);
 
-/* The same in 80 bytes, after Ylitie, Karras and Laine 2017: planes are origin + step * byte, rounded
-   outwards, so that boxes contain those they stand for. Children that are nodes lie side by side, and
-   so do those that are blocks, both in the order of their slots. Slots are in space: bits 0, 1, 2 of a
-   slot tell which children lie farther along x, y, z. */
+/* The same in 80 bytes, after Ylitie, Karras and Laine 2017: planes are origin + step * byte,
+   rounded outwards, so that boxes contain those they stand for. Children that are nodes lie side by
+   side, and so do those that are blocks, both in the order of their slots. Slots are in space: bits
+   0, 1, 2 of a slot tell which children lie farther along x, y, z. */
 typedef struct CompressedNode {
     float origin[3];
-    uint steps;  /* from the lowest: biased exponents of x, y, z; then a bit for each slot with a node */
+    /* from the lowest bit: biased exponents of x, y, z; then a bit for each slot with a node */
+    uint steps;
     uint first_node, first_block;
     uint leaves; /* a bit for each slot with a block */
     uint unused;
@@ -30,8 +31,9 @@ WEDGE_ASSERT_SIZE(CompressedNode, 80);
 
 /* Two children. The root of one leaf only has an empty second child. */
 typedef struct BinaryNode {
-    float bounds[3][4]; /* [axis]: lower and upper of the first child, lower and upper of the second */
-    int child[2];       /* as in BvhNode */
+    /* [axis]: lower and upper of the first child, lower and upper of the second */
+    float bounds[3][4];
+    int child[2]; /* as in BvhNode */
     int unused[2];
 } BinaryNode;
 WEDGE_ASSERT_SIZE(BinaryNode, 64);
@@ -54,7 +56,7 @@ WEDGE_ASSERT_SIZE(TriangleBlock, 160);
 
 /* A visit to a node leaves at most 7 children waiting, so a tree of WEDGE_MAX_DEPTH levels of nodes
    can never have more than this many waiting at once. The builder keeps to the depth. A binary node
-   leaves one, and there are at most 7 of them one below the other in place of a wide one: the same. */
+   leaves one, and at most 7 of them lie one below the other in place of a wide one: the same. */
 #define WEDGE_MAX_DEPTH 27
 #define WEDGE_STACK_SIZE (7 * WEDGE_MAX_DEPTH + 1)
 

@@ -1,12 +1,13 @@
 /* What axis-aligned filtering keeps of a pixel's samples.
 
-   A pixel may show more than one surface; its samples are told apart, so that each surface is filtered with its
-   like. Light is kept as signals, which are smooth along a surface where its colour need not be: irradiance by
-   each filtered light, with and without shadow, then irradiance from the hemisphere, then what the lobe
-   reflects of the hemisphere. Samples are summed in two halves, whose difference tells the error.
+   A pixel may show more than one surface; its samples are told apart, so that each surface is
+   filtered with its like. Light is kept as signals, which are smooth along a surface where its
+   colour need not be: irradiance by each filtered light, with and without shadow, then irradiance
+   from the hemisphere, then what the lobe reflects of the hemisphere. Samples are summed in two
+   halves, whose difference tells the error.
 
-   Arrays: surfaces at pixel * WEDGE_SURFACES + surface; signals at that * signals + signal; sums of signals at
-   that * 2 + half. */
+   Arrays: surfaces at pixel * WEDGE_SURFACES + surface; signals at that * signals + signal; sums of
+   signals at that * 2 + half. */
 #ifndef WEDGE_SHARED_FILTER_H
 #define WEDGE_SHARED_FILTER_H
 
@@ -27,8 +28,9 @@ typedef struct SurfaceSum {
 } SurfaceSum;
 WEDGE_ASSERT_SIZE(SurfaceSum, 64);
 
-/* What probe samples tell of the distances that decide a signal's frequencies. Of a light: from it to
-   occluders, along its normal. Of the hemisphere: from the surface to what it sees. World units. */
+/* What probe samples tell of the distances that decide a signal's frequencies. Of a light: from it
+   to occluders, along its normal. Of the hemisphere: from the surface to what it sees. World units.
+ */
 typedef struct DistanceRange {
     float nearest;  /* +inf: nothing found */
     float farthest; /* 0: nothing found */
@@ -37,8 +39,8 @@ typedef struct DistanceRange {
 } DistanceRange;
 WEDGE_ASSERT_SIZE(DistanceRange, 16);
 
-/* Radiance of a pixel that filters are for, by halves of its samples: before the filter, summed over samples,
-   or after it. */
+/* Radiance of a pixel that filters are for, by halves of its samples: before the filter, summed
+   over samples, or after it. */
 typedef struct HalfLight {
     float4 direct[2];   /* rgb, w: samples (sums only) */
     float4 indirect[2]; /* rgb */
@@ -71,16 +73,17 @@ WEDGE_ASSERT_SIZE(FilterSurface, 32);
 
 /* Settings of the method; the defaults are in host/render/signal_filter.cpp. */
 typedef struct FilterSettings {
-    float mu;                    /* bandwidth scale: larger is narrower filters and more samples */
-    float alpha_direct;          /* band limit of geometry as a share of the pixel's */
+    float mu;           /* bandwidth scale: larger is narrower filters and more samples */
+    float alpha_direct; /* band limit of geometry as a share of the pixel's */
     float alpha_indirect;
-    float k_gaussian, k_uniform; /* standard deviations that a light's profile is taken to be wide */
-    float pixel_angle;           /* world length of a pixel face-on, at distance 1 */
+    float k_gaussian,
+        k_uniform;     /* standard deviations that a light's profile is taken to be wide */
+    float pixel_angle; /* world length of a pixel face-on, at distance 1 */
     int probe_samples, max_samples;
-    int max_radius_px;           /* of a filter */
-    int camera_rays_at_edges;    /* for each sample */
-    int least_samples;           /* that every pixel gets, whatever its frequencies */
-    int mode;                    /* WEDGE_FILTER_MODE_* */
+    int max_radius_px;        /* of a filter */
+    int camera_rays_at_edges; /* for each sample */
+    int least_samples;        /* that every pixel gets, whatever its frequencies */
+    int mode;                 /* WEDGE_FILTER_MODE_* */
 } FilterSettings;
 WEDGE_ASSERT_SIZE(FilterSettings, 48);
 

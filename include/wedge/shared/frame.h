@@ -27,7 +27,8 @@ typedef struct FrameParams {
     int crop_x, crop_y, crop_width, crop_height;
     uint seed;
     int sampler;
-    int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence, or WEDGE_DOUBLING */
+    int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence, or
+                         WEDGE_DOUBLING */
     int bounces;
     int search_lights; /* 1: there is light that sampling finds badly or not at all: background,
                           meshes */
