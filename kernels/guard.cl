@@ -48,7 +48,7 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
 
 /* Mean of `errors` over a stretch of 2 WEDGE_GUARD_RADIUS + 1 pixels, as far as they are on the film. */
 #define WEDGE_GUARD_RADIUS 5
-#define WEDGE_GUARD_WINDOW 121.0f /* pixels */
+#define WEDGE_GUARD_SIDE (2.0f * WEDGE_GUARD_RADIUS + 1.0f)
 
 inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,
                                 int before, int after) {
@@ -85,7 +85,7 @@ inline float4 choose(float4 errors, __global const float4* full, __global const 
     const bool narrow = errors.y < errors.x;
     const float filter_error = fmin(errors.x, errors.y), noise = errors.z;
     const float variance = fmax(errors.w - errors.x * errors.x, 0.0f);
-    const float spread = sqrt(variance * (1.0f / (WEDGE_GUARD_WINDOW - 1.0f)));
+    const float spread = sqrt(variance * (1.0f / (WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE - 1.0f)));
     const float certain = fmax(filter_error - spread, 0.0f);
     const float share = certain > 0.0f ? noise / (noise + certain) : 1.0f;
     const float4 filtered = narrow ? 0.5f * (half_width[0] + half_width[1]) : 0.5f * (full[0] + full[1]);
