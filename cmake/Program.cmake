@@ -3,7 +3,7 @@ if(WEDGE_WITH_IMAGE)
     file(GLOB converge_sources CONFIGURE_DEPENDS bench/converge/*.cpp bench/baselines/*.cpp)
     add_library(wedge_converge STATIC ${converge_sources})
     target_link_libraries(wedge_converge PUBLIC wedge wedge_options wedge_dep_glm wedge_dep_fmt
-        wedge_dep_json wedge_dep_opencl_hpp OpenImageIO::OpenImageIO)
+        wedge_dep_json wedge_dep_opencl_hpp)
     set(commit_header ${PROJECT_BINARY_DIR}/generated/wedge_commit.hpp)
     add_custom_target(wedge_commit BYPRODUCTS ${commit_header}
         COMMAND ${CMAKE_COMMAND} -DOUT=${commit_header} -DROOT=${PROJECT_SOURCE_DIR}
@@ -24,6 +24,9 @@ target_link_libraries(wedge_program PRIVATE wedge wedge_options wedge_dep_glm we
     wedge_dep_json wedge_dep_cli11 wedge_dep_opencl_hpp)
 if(WEDGE_WITH_IMAGE)
     target_link_libraries(wedge_program PRIVATE wedge_converge)
+    file(RELATIVE_PATH to_codec /${CMAKE_INSTALL_BINDIR} /${WEDGE_CODEC_DIR})
+    set_target_properties(wedge_program PROPERTIES
+        BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN;$ORIGIN/${to_codec}")
 endif()
 if(TBB_FOUND)
     target_compile_definitions(wedge_program PRIVATE WEDGE_HAVE_TBB)

@@ -1,6 +1,5 @@
 #include "bench/converge/pictures.hpp"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 #include <cmath>
 
 #include "bench/converge/html.hpp"
-#include "host/image/encode.hpp"
+#include "host/image/codec.hpp"
 #include "host/image/tone.hpp"
 
 namespace wedge::converge {
@@ -111,8 +110,8 @@ std::string base64(const std::string& bytes) {
 }
 
 std::string img_html(const Picture& picture, const std::string& alt, bool pixelated) {
-    const OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
-    const std::string png = image::encode("png", spec, picture.rgb.data(), "picture of the report");
+    const std::string png = image::encode_png(picture.width, picture.height, picture.rgb.data(),
+                                              "picture of the report");
     return fmt::format(
         "<img{} width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>",
         pixelated ? " class=\"pixels\"" : "", picture.width, picture.height, escaped(alt),

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "host/base/parallel.hpp"
-#include "host/image/decode.hpp"
-#include "host/image/metadata.hpp"
+#include "host/image/codec.hpp"
+#include "host/image/rgba_channels.hpp"
 #include "host/image/tone.hpp"
 #include "wedge/image_io.hpp"
 
@@ -15,20 +15,20 @@ namespace {
 /// formats can be compared.
 void name_channels(Image& image, const image::DecodedImage& decoded,
                    const std::filesystem::path& file) {
-    if (decoded.spec.nchannels > 4 || decoded.spec.channelindex("R") >= 0) {
-        image.channels = decoded.spec.channelnames;
+    if (decoded.channels.size() > 4 || image::channel_index(decoded.channels, "R") >= 0) {
+        image.channels = decoded.channels;
         image.pixels.assign(decoded.as_floats(),
                             decoded.as_floats() + decoded.pixel_count() * image.channels.size());
         return;
     }
-    const auto source = image::rgba_channels(decoded.spec, file);
+    const auto source = image::rgba_channels(decoded.channels, file);
     image.channels = {"R", "G", "B"};
     if (source[3] >= 0) image.channels.push_back("A");
     image.pixels.reserve(decoded.pixel_count() * image.channels.size());
     for (std::size_t i = 0; i < decoded.pixel_count(); ++i)
         for (std::size_t c = 0; c < image.channels.size(); ++c)
-            image.pixels.push_back(decoded.as_floats()[i * std::size_t(decoded.spec.nchannels) +
-                                                       std::size_t(source[c])]);
+            image.pixels.push_back(
+                decoded.as_floats()[i * decoded.channels.size() + std::size_t(source[c])]);
 }
 
 void decode_srgb(Image& image) {
@@ -44,23 +44,16 @@ void decode_srgb(Image& image) {
     });
 }
 
-void copy_metadata(Image& image, const OIIO::ImageSpec& spec) {
-    for (const auto& attribute : spec.extra_attribs) {
-        const std::string name = attribute.name().string();
-        if (name.starts_with(image::kMetadataPrefix)) image.metadata[name] = attribute.get_string();
-    }
-}
-
 }  // namespace
 
 Image read_image(const std::filesystem::path& file) {
     const image::DecodedImage decoded = image::decode(file, false);
     Image result;
-    result.width = decoded.spec.width;
-    result.height = decoded.spec.height;
+    result.width = decoded.width;
+    result.height = decoded.height;
+    result.metadata = decoded.metadata;
     name_channels(result, decoded, file);
-    if (image::is_integer(decoded.spec)) decode_srgb(result);
-    copy_metadata(result, decoded.spec);
+    if (decoded.stores_integers) decode_srgb(result);
     return result;
 }
 

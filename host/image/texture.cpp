@@ -1,10 +1,12 @@
 // Image files to textures: RGBA, at 8 bits where the file has 8 bits, else linear float32.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
-#include "host/image/decode.hpp"
+#include "host/image/codec.hpp"
+#include "host/image/rgba_channels.hpp"
 #include "host/image/tone.hpp"
 #include "wedge/image_io.hpp"
 #include "wedge/log.hpp"
@@ -15,7 +17,7 @@ namespace {
 using image::DecodedImage;
 
 void fill_bytes(TextureImage& texture, const DecodedImage& decoded, std::array<int, 4> source) {
-    const std::size_t stride = std::size_t(decoded.spec.nchannels);
+    const std::size_t stride = decoded.channels.size();
     texture.texels.resize(decoded.pixel_count() * 4);
     for (std::size_t i = 0; i < decoded.pixel_count(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
@@ -26,7 +28,7 @@ void fill_bytes(TextureImage& texture, const DecodedImage& decoded, std::array<i
 /// Returns how many texels had a value that is not finite; those values become 0.
 std::size_t fill_floats(TextureImage& texture, const DecodedImage& decoded,
                         std::array<int, 4> source, bool decode_srgb) {
-    const std::size_t stride = std::size_t(decoded.spec.nchannels);
+    const std::size_t stride = decoded.channels.size();
     texture.texels.resize(decoded.pixel_count() * 4 * sizeof(float));
     std::size_t non_finite = 0;
     for (std::size_t i = 0; i < decoded.pixel_count(); ++i) {
@@ -51,17 +53,17 @@ std::size_t fill_floats(TextureImage& texture, const DecodedImage& decoded,
 
 TextureImage load_texture(const std::filesystem::path& file, bool is_colour) {
     const DecodedImage decoded = image::decode(file, true);
-    const auto source = image::rgba_channels(decoded.spec, file);
+    const auto source = image::rgba_channels(decoded.channels, file);
     TextureImage texture;
-    texture.width = decoded.spec.width;
-    texture.height = decoded.spec.height;
-    if (decoded.type == OIIO::TypeDesc::UINT8) {
+    texture.width = decoded.width;
+    texture.height = decoded.height;
+    if (decoded.holds_bytes) {
         texture.format = is_colour ? TextureFormat::srgb8 : TextureFormat::linear8;
         fill_bytes(texture, decoded, source);
         return texture;
     }
     texture.format = TextureFormat::float32;
-    const bool decode_srgb = is_colour && image::is_integer(decoded.spec);
+    const bool decode_srgb = is_colour && decoded.stores_integers;
     const std::size_t non_finite = fill_floats(texture, decoded, source, decode_srgb);
     if (non_finite > 0)
         log_warning(fmt::format("{}: {} of {} texels have values that are not finite; 0 is used",

@@ -1,5 +1,4 @@
 // Images to files: EXR for numbers, PNG for eyes. docs/output.md is the user's side of this.
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,8 +10,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/parallel.hpp"
-#include "host/image/encode.hpp"
-#include "host/image/metadata.hpp"
+#include "host/image/codec.hpp"
 #include "host/image/tone.hpp"
 #include "wedge/error.hpp"
 #include "wedge/image_io.hpp"
@@ -51,16 +49,7 @@ void require_folder(const fs::path& file) {
 void write_exr(const fs::path& file, const Image& image) {
     require_pixels(file, image);
     require_folder(file);
-    OIIO::ImageSpec spec(image.width, image.height, int(image.channels.size()),
-                         OIIO::TypeDesc::FLOAT);
-    spec.channelnames = image.channels;
-    spec.alpha_channel = image.channel("A");
-    spec.z_channel = image.channel("Z");
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    for (const auto& [key, value] : image.metadata)
-        spec.attribute(image::exr_attribute_name(key), value);
-    write_file_atomically(file, image::encode("openexr", spec, image.pixels.data(), file));
+    write_file_atomically(file, image::encode_exr(image, file));
 }
 
 void write_png(const fs::path& file, const Image& image, float exposure, ToneCurve curve) {
@@ -83,14 +72,13 @@ void write_png(const fs::path& file, const Image& image, float exposure, ToneCur
             }
     });
 
-    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    write_file_atomically(file, image::encode("png", spec, bytes.data(), file));
+    write_file_atomically(file, image::encode_png(image.width, image.height, bytes.data(), file));
 }
 
 void check_writable(const fs::path& file) {
-    std::error_code ignored;
+    image::require_codec();
     require_folder(file);
+    std::error_code ignored;
     if (fs::exists(file, ignored) && fs::is_other(file, ignored)) {  // a device or a pipe
         if (::access(file.c_str(), W_OK) != 0)
             throw Error(ErrorKind::output,

@@ -14,7 +14,7 @@ file(MAKE_DIRECTORY ${SCRATCH})
 run("install" ${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/prefix)
 file(RENAME ${SCRATCH}/prefix ${prefix})
 
-foreach(pattern bin/wedge lib*/libwedge.a include/wedge/scene.hpp include/wedge/shared/scene.h
+foreach(pattern bin/wedge lib*/libwedge.a lib*/wedge/libwedge_codec.so include/wedge/scene.hpp include/wedge/shared/scene.h
         share/wedge/scenes/demo.json share/doc/wedge/LICENSE)
     file(GLOB found ${prefix}/${pattern})
     if(NOT found)
@@ -23,8 +23,10 @@ foreach(pattern bin/wedge lib*/libwedge.a include/wedge/scene.hpp include/wedge/
 endforeach()
 
 run("installed program" ${prefix}/bin/wedge --version)
+run("installed program writes images" ${prefix}/bin/wedge render ${prefix}/share/wedge/scenes/grids.json
+    --spp 1 --size 8x8 --bounces 0 -o ${SCRATCH}/program.png)
 run("configure" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/build -G ${GENERATOR}
     -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=${CONFIG}
     -DCMAKE_CXX_FLAGS=${FLAGS})
 run("build" ${CMAKE_COMMAND} --build ${SCRATCH}/build --config ${CONFIG})
-run("run" ${SCRATCH}/build/consumer ${prefix}/share/wedge/scenes/grids.json)
+run("run" ${SCRATCH}/build/consumer ${prefix}/share/wedge/scenes/grids.json ${SCRATCH}/consumer.exr)

@@ -1,6 +1,7 @@
 // Uses the library as a stranger would: loads an installed scene, renders it small, looks at the
-// pixels.
+// pixels, writes them.
 #include <wedge/error.hpp>
+#include <wedge/image_io.hpp>
 #include <wedge/render.hpp>
 #include <wedge/scene.hpp>
 
@@ -8,7 +9,7 @@
 #include <cstdio>
 
 int main(int argc, char** argv) {
-    if (argc != 2) return 2;
+    if (argc != 3) return 2;
     try {
         wedge::Scene scene = wedge::load_scene(argv[1]);
         scene.film = {32, 24};
@@ -16,6 +17,8 @@ int main(int argc, char** argv) {
         options.samples_per_pixel = 4;
         options.bounces = 0;
         const wedge::Frame frame = wedge::render(scene, options);
+
+        wedge::write_exr(argv[2], frame.image);
 
         double sum = 0;
         for (int y = 0; y < frame.image.height; ++y)

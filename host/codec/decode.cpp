@@ -1,5 +1,5 @@
-#include "host/image/decode.hpp"
-
+// The bytes of an image file to pixels.
+#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <fstream>
@@ -8,10 +8,12 @@
 #include <string>
 #include <string_view>
 
-#include "host/image/exr_header.hpp"
+#include "host/codec/codec_functions.hpp"
+#include "host/codec/exr_header.hpp"
+#include "host/image/metadata.hpp"
 #include "wedge/error.hpp"
 
-namespace wedge::image {
+namespace wedge::codec {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,9 +46,9 @@ void require_usable(const fs::path& file, const OIIO::ImageSpec& spec) {
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
         fail(file, fmt::format("its size is {} x {} x {} with {} channels", spec.width, spec.height,
                                spec.depth, spec.nchannels));
-    if (std::size_t(spec.width) * std::size_t(spec.height) > kMaxPixels)
+    if (std::size_t(spec.width) * std::size_t(spec.height) > image::kMaxPixels)
         fail(file, fmt::format("{} x {} pixels are more than the {} that are taken; scale it down",
-                               spec.width, spec.height, kMaxPixels));
+                               spec.width, spec.height, image::kMaxPixels));
     // Decoders fill in what is missing, and of a few damaged bytes make gigabytes.
     constexpr std::size_t kSurelyFine = std::size_t(1) << 24, kMostPerByte = 1024;
     const std::size_t pixels = std::size_t(spec.width) * std::size_t(spec.height);
@@ -84,20 +86,34 @@ std::unique_ptr<OIIO::ImageInput> open(const fs::path& file) {
     return input;
 }
 
+std::map<std::string, std::string> metadata_of(const OIIO::ImageSpec& spec) {
+    std::map<std::string, std::string> metadata;
+    for (const auto& attribute : spec.extra_attribs) {
+        const std::string name = attribute.name().string();
+        if (name.starts_with(image::kMetadataPrefix)) metadata[name] = attribute.get_string();
+    }
+    return metadata;
+}
+
 }  // namespace
 
-DecodedImage decode(const fs::path& file, bool keep_bytes) {
+image::DecodedImage decode(const fs::path& file, bool keep_bytes) {
     require_file(file);
     if (const std::string flaw = flaw_of_exr_header(file); !flaw.empty()) fail(file, flaw);
     const auto input = open(file);
-    DecodedImage image;
-    image.spec = input->spec();
-    require_usable(file, image.spec);
+    const OIIO::ImageSpec spec = input->spec();
+    require_usable(file, spec);
     if (input->format_name() == std::string_view("jpeg")) require_whole_jpeg(file);
-    image.type = keep_bytes && image.spec.format == OIIO::TypeDesc::UINT8 ? OIIO::TypeDesc::UINT8
-                                                                          : OIIO::TypeDesc::FLOAT;
-    const std::size_t byte_count =
-        image.pixel_count() * std::size_t(image.spec.nchannels) * image.type.size();
+
+    image::DecodedImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels = spec.channelnames;
+    image.stores_integers = !spec.format.is_floating_point();
+    image.holds_bytes = keep_bytes && spec.format == OIIO::TypeDesc::UINT8;
+    image.metadata = metadata_of(spec);
+    const OIIO::TypeDesc type = image.holds_bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT;
+    const std::size_t byte_count = image.pixel_count() * std::size_t(spec.nchannels) * type.size();
     try {
         // Not zeroed: a file that claims far more than it holds then costs address space, not
         // memory.
@@ -105,34 +121,8 @@ DecodedImage decode(const fs::path& file, bool keep_bytes) {
     } catch (const std::bad_alloc&) {
         fail(file, fmt::format("it needs {} bytes of memory, which are not there", byte_count));
     }
-    if (!input->read_image(0, 0, 0, -1, image.type, image.values.get()))
-        fail(file, input->geterror());
+    if (!input->read_image(0, 0, 0, -1, type, image.values.get())) fail(file, input->geterror());
     return image;
 }
 
-bool is_integer(const OIIO::ImageSpec& spec) {
-    return !spec.format.is_floating_point();
-}
-
-std::array<int, 4> rgba_channels(const OIIO::ImageSpec& spec, const fs::path& file) {
-    const auto find = [&](const char* name) { return spec.channelindex(name); };
-    const int alpha = find("A");
-    if (find("R") >= 0 && find("G") >= 0 && find("B") >= 0)
-        return {find("R"), find("G"), find("B"), alpha};
-    if (find("Y") >= 0) return {find("Y"), find("Y"), find("Y"), alpha};
-    switch (spec.nchannels) {
-        case 1:
-            return {0, 0, 0, -1};
-        case 2:
-            return {0, 0, 0, 1};
-        case 3:
-            return {0, 1, 2, -1};
-        case 4:
-            return {0, 1, 2, 3};
-        default:
-            break;
-    }
-    fail(file, fmt::format("none of its {} channels are called R, G, B or Y", spec.nchannels));
-}
-
-}  // namespace wedge::image
+}  // namespace wedge::codec

@@ -1,6 +1,6 @@
 // The layout is that of "OpenEXR File Layout" (openexr.com): magic number, version and flags, then
 // for each part attributes of name, type, size in bytes and value, ended by an empty name.
-#include "host/image/exr_header.hpp"
+#include "host/codec/exr_header.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-namespace wedge::image {
+namespace wedge::codec {
 namespace {
 
 constexpr std::uint32_t kMagic = 20000630;  // 76 2f 31 01 in the file
@@ -144,4 +144,4 @@ std::string flaw_of_exr_header(const std::filesystem::path& file) {
     return "its header is damaged";
 }
 
-}  // namespace wedge::image
+}  // namespace wedge::codec

@@ -1,0 +1,11 @@
+# The module that reads and writes image files, the only thing that links OpenImageIO. The library loads
+# it by name when the first image is read or written (host/image/codec.hpp), by way of the program's run
+# path: here the build folder, after installation WEDGE_CODEC_DIR.
+set(WEDGE_CODEC_DIR ${CMAKE_INSTALL_LIBDIR}/wedge)
+file(GLOB codec_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/codec/*.cpp)
+add_library(wedge_codec MODULE ${codec_sources})
+target_include_directories(wedge_codec PRIVATE
+    $<TARGET_PROPERTY:wedge_image,INTERFACE_INCLUDE_DIRECTORIES>)
+target_link_libraries(wedge_codec PRIVATE wedge_options wedge_dep_fmt OpenImageIO::OpenImageIO)
+add_dependencies(wedge_image wedge_codec)
+list(APPEND CMAKE_BUILD_RPATH $<TARGET_FILE_DIR:wedge_codec>)
