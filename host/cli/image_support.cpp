@@ -6,7 +6,6 @@
 #include "host/cli/render_arguments.hpp"
 #include "wedge/error.hpp"
 #if WEDGE_WITH_IMAGE
-#include "host/image/codec.hpp"
 #include "wedge/image_io.hpp"
 #endif
 
@@ -26,9 +25,6 @@ void check_tone(const std::string& name) {
 }
 void check_output(const std::filesystem::path& file) {
     check_writable(file);
-}
-void prepare_output() {
-    image::codec();
 }
 
 void write_output(const std::filesystem::path& file, const Image& image, const Develop& develop) {
@@ -57,7 +53,6 @@ TextureLoader texture_loader() {
 }
 void check_tone(const std::string&) {}
 void check_output(const std::filesystem::path&) {}
-void prepare_output() {}
 void write_output(const std::filesystem::path&, const Image&, const Develop&) {
     require_image_support("render");
 }

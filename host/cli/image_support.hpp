@@ -36,10 +36,6 @@ void check_tone(const std::string& name);
 /// Throws Error(output) if `file` cannot be written later.
 void check_output(const std::filesystem::path& file);
 
-/// Loads what `write_output` needs. Better to hear that it is damaged when a render begins than
-/// when it is done. Throws Error(usage).
-void prepare_output();
-
 /// `.exr` or `.png`, by the extension. Throws Error(output).
 void write_output(const std::filesystem::path& file, const Image& image, const Develop& develop);
 

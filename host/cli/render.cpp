@@ -46,12 +46,7 @@ Frame render_with_progress(const Scene& scene, RenderOptions options) {
     const InterruptScope interrupt;
     ProgressDisplay display(options.time_limit_s);
     options.stop = &InterruptScope::requested();
-    bool prepared = false;
-    options.on_progress = [&](const Progress& progress) {
-        if (!prepared) prepare_output();  // now, not before: it takes longer than the first samples
-        prepared = true;
-        display.update(progress);
-    };
+    options.on_progress = [&](const Progress& progress) { display.update(progress); };
     return render(scene, options);
 }
 

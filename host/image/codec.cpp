@@ -41,14 +41,14 @@ std::vector<fs::path> search_path() {
 
 const Codec& load() {
     // Never closed: what it brings has threads and things to do at exit.
-    void* module = ::dlopen(kCodecFile, RTLD_LAZY | RTLD_LOCAL);
+    void* module = ::dlopen(WEDGE_CODEC_FILE, RTLD_LAZY | RTLD_LOCAL);
     if (!module) fail(::dlerror());
     const auto entry = reinterpret_cast<const Codec* (*)()>(::dlsym(module, kCodecEntry));
     if (!entry) fail(::dlerror());
     const Codec* codec = entry();
     if (codec->interface_number != kCodecInterface)
-        fail(fmt::format("{} is of another version of Wedge (interface {}, not {})", kCodecFile,
-                         codec->interface_number, kCodecInterface));
+        fail(fmt::format("{} is of another version of Wedge (interface {}, not {})",
+                         WEDGE_CODEC_FILE, codec->interface_number, kCodecInterface));
     return *codec;
 }
 
@@ -57,7 +57,7 @@ const Codec& load() {
 void require_codec() {
     std::error_code ignored;
     for (const fs::path& folder : search_path())
-        if (fs::exists(folder / kCodecFile, ignored)) return;
+        if (fs::exists(folder / WEDGE_CODEC_FILE, ignored)) return;
     codec();
 }
 

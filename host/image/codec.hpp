@@ -47,7 +47,6 @@ struct Codec {
 
 /// Higher by one after every change to what passes between the program and the module.
 inline constexpr unsigned kCodecInterface = 1;
-inline constexpr const char* kCodecFile = "libwedge_codec.so";
 inline constexpr const char* kCodecEntry = "wedge_codec";
 
 /// Throws Error(usage) if the module is not where it is looked for. Costs some look-ups of names,

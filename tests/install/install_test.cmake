@@ -14,7 +14,7 @@ file(MAKE_DIRECTORY ${SCRATCH})
 run("install" ${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/prefix)
 file(RENAME ${SCRATCH}/prefix ${prefix})
 
-foreach(pattern bin/wedge lib*/libwedge.a lib*/wedge/libwedge_codec.so include/wedge/scene.hpp include/wedge/shared/scene.h
+foreach(pattern bin/wedge lib*/libwedge.a lib*/wedge/libwedge_codec-*.so include/wedge/scene.hpp include/wedge/shared/scene.h
         share/wedge/scenes/demo.json share/doc/wedge/LICENSE)
     file(GLOB found ${prefix}/${pattern})
     if(NOT found)
