@@ -1,6 +1,7 @@
 // Stands between the program and OpenCL (LD_PRELOAD) and lets one function fail from its n-th call
 // on, as a device does that has gone: WEDGE_TEST_FAULT="clCreateBuffer 5 -4" is function, call,
-// status. So failures are tested on the program as it is, without a door for them in it.
+// status. WEDGE_TEST_LARGEST_BUFFER is the size in bytes of the largest buffer that devices claim
+// to have. So failures are tested on the program as it is, without a door for them in it.
 #include <CL/cl.h>
 #include <dlfcn.h>
 
@@ -75,4 +76,16 @@ clBuildProgram(cl_program program, cl_uint device_count, const cl_device_id* dev
                                                                   options, notify, data);
     const cl_int refused = injected("clBuildProgram");
     return refused != CL_SUCCESS ? refused : status;
+}
+
+extern "C" CL_API_ENTRY cl_int CL_API_CALL clGetDeviceInfo(cl_device_id device, cl_device_info what,
+                                                           size_t room, void* value, size_t* size) {
+    const cl_int status =
+        next(&clGetDeviceInfo, "clGetDeviceInfo")(device, what, room, value, size);
+    const char* largest = std::getenv("WEDGE_TEST_LARGEST_BUFFER");
+    if (largest && what == CL_DEVICE_MAX_MEM_ALLOC_SIZE && value) {
+        const cl_ulong bytes = std::strtoull(largest, nullptr, 10);
+        std::memcpy(value, &bytes, sizeof bytes);
+    }
+    return status;
 }
