@@ -1,7 +1,8 @@
-// Wall time.
+// Wall time, and processor time.
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace wedge {
 
@@ -21,6 +22,16 @@ class Stopwatch {
     using Clock = std::chrono::steady_clock;
     Clock::time_point start_ = Clock::now();
     Clock::time_point lap_ = start_;
+};
+
+/// Of all threads of the process together: what other programs on the machine hardly change.
+class CpuStopwatch {
+  public:
+    double total() const { return now() - start_; }
+
+  private:
+    static double now() { return double(std::clock()) / CLOCKS_PER_SEC; }
+    double start_ = now();
 };
 
 }  // namespace wedge

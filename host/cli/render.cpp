@@ -142,6 +142,11 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--time", a.time_s,
                        "End after this many seconds, or at --spp, whichever is first; default: no "
                        "limit");
+    command.add_option("--target-error", a.target_error,
+                       "Go on until the estimated error is this small (method mc), or until --spp "
+                       "or --time; default: none");
+    command.add_option("--target-metric", a.target_metric,
+                       "What --target-error is: relmse or rmse; default: relmse");
     command.add_option("--seed", a.seed, "Seed of all random numbers, 0 to 2^64 - 1; default: 0");
     command.add_option("--method", a.method, "mc or aaf; default: mc");
     command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 1");

@@ -29,6 +29,8 @@ void check_numbers(const RenderArguments& a) {
         refuse(fmt::format("--bounces: must be at least 0, got {}", *a.bounces));
     if (a.time_s && !(*a.time_s > 0 && std::isfinite(*a.time_s)))
         refuse(fmt::format("--time: must be a positive number of seconds, got {}", *a.time_s));
+    if (a.target_error && !(*a.target_error > 0 && std::isfinite(*a.target_error)))
+        refuse(fmt::format("--target-error: must be positive, got {}", *a.target_error));
     if (!(a.checkpoint_s >= 0))
         refuse(fmt::format("--checkpoint: must not be negative, got {}", a.checkpoint_s));
     if (a.exposure && !std::isfinite(*a.exposure))
@@ -89,6 +91,12 @@ Sampler parse_sampler(const std::string& name) {
     refuse("--sampler " + name + ": no such sampler; known: sobol, stratified, hash");
 }
 
+ErrorMetric parse_metric(const std::string& name) {
+    if (name == "relmse") return ErrorMetric::rel_mse;
+    if (name == "rmse") return ErrorMetric::rmse;
+    refuse("--target-metric " + name + ": no such metric; known: relmse, rmse");
+}
+
 FilterMode parse_filter(const std::string& name) {
     for (FilterMode mode : {FilterMode::guarded, FilterMode::plain, FilterMode::none})
         if (name == to_string(mode)) return mode;
@@ -143,6 +151,13 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.ambient_occlusion = is_ambient_occlusion(arguments.integrator);
     if (job.ambient_occlusion) job.options.bounces = 0;
     job.options.kernel_dir = arguments.kernel_dir;
+    job.options.estimate_error = true;
+    job.options.target_error = arguments.target_error;
+    job.options.target_metric = parse_metric(arguments.target_metric);
+    if (arguments.target_error && job.options.method != Method::mc)
+        refuse("--target-error: needs --method mc; with aaf a larger --mu gives less error");
+    if (arguments.target_error && !arguments.resume_file.empty())
+        refuse("--target-error: such a render cannot be resumed; give --spp instead");
     job.options.resume_file = arguments.resume_file;
     job.options.checkpoint_interval_s = arguments.checkpoint_s;
     if (!arguments.resume_file.empty() && job.options.method != Method::mc)

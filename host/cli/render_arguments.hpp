@@ -27,7 +27,8 @@ struct RenderArguments {
     std::optional<float> exposure;
     std::string tone = "srgb";
     std::optional<int> spp, bounces;
-    std::optional<double> time_s;
+    std::optional<double> time_s, target_error;
+    std::string target_metric = "relmse";
     std::string seed = "0";
     uint32_t sample_offset = 0, local_size = 0, tile_pixels = 0;
     std::string device, kernel_dir;

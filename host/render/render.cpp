@@ -8,9 +8,11 @@
 
 #include "host/device/self_test.hpp"
 #include "host/render/bands.hpp"
+#include "host/render/error_estimate.hpp"
 #include "host/render/film_image.hpp"
 #include "host/render/filter_layers.hpp"
 #include "host/render/path_tracer.hpp"
+#include "host/render/progressive.hpp"
 #include "host/render/render_settings.hpp"
 #include "host/render/sampling_loop.hpp"
 #include "host/render/signal_filter.hpp"
@@ -167,6 +169,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     if (!options.resume_file.empty())
         checkpoints.emplace(scene, options, settings, frame.stats, tracer);
     SamplingLoop loop(options, tracer, frame.stats);
+    const CpuStopwatch cpu_watch;
     FilteredLight filtered;
     frame.image = black_image(scene.film);
     try {
@@ -175,8 +178,12 @@ Frame render(const Scene& scene, const RenderOptions& options) {
         } else {
             const uint32_t samples = sample_count(scene, options);
             if (checkpoints) loop.keep(*checkpoints);
+            const bool estimates = estimates_error(options, bands.size());
+            if (estimates)
+                run_progressively(options, options.sample_offset, samples, loop, tracer,
+                                  frame.stats);
             const uint64_t total = uint64_t(samples) * whole.width * whole.height;
-            for (std::size_t band = 0; band < bands.size(); ++band) {
+            for (std::size_t band = 0; band < bands.size() && !estimates; ++band) {
                 if (band > 0) finish_band(tracer, options, frame);
                 if (band > 0) tracer.move_to(bands[band]);
                 if (!loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
@@ -190,12 +197,14 @@ Frame render(const Scene& scene, const RenderOptions& options) {
         frame.stats.failure = error.what();
     }
     frame.stats.render_s = loop.elapsed_s();
+    frame.stats.render_cpu_s = cpu_watch.total();
     std::vector<shared::FilmPixel> film = tracer.read_film();
     const std::vector<NamedChannel> layers = filter_layers(filtered, film);
     replace_unfiltered(film, filtered);
     count_film(film, tracer.crop(), options.seed, frame.stats);
     write_film(film, tracer.crop(), frame.image);
     add_channels(frame.image, layers, tracer.crop());
+    if (filter) frame.stats.estimated_error = estimate_from_layer(frame.image);
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

@@ -41,6 +41,17 @@ Rect checked_crop(const Film& film, const std::optional<Rect>& crop) {
     return *crop;
 }
 
+void check_target(const RenderOptions& options) {
+    if (!(*options.target_error > 0) || !std::isfinite(*options.target_error))
+        refuse(fmt::format("the target error must be positive, got {}", *options.target_error));
+    if (options.method != Method::mc)
+        refuse(
+            "a target error needs the method mc: aaf decides its samples after its probe; raise mu "
+            "for less error");
+    if (!options.resume_file.empty())
+        refuse("a render with a target error cannot be resumed: give the number of samples");
+}
+
 }  // namespace
 
 uint32_t sample_count(const Scene& scene, const RenderOptions& options) {
@@ -51,7 +62,7 @@ uint32_t sample_count(const Scene& scene, const RenderOptions& options) {
                                samples));
         return uint32_t(samples);
     }
-    if (options.time_limit_s) return kMaxSamples;
+    if (options.time_limit_s || options.target_error) return kMaxSamples;
     return uint32_t(scene.defaults.samples_per_pixel);
 }
 
@@ -64,6 +75,7 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
         refuse(fmt::format("bounces must be from 0 to {}, got {}", kMaxBounces, settings.bounces));
     if (options.time_limit_s && !(*options.time_limit_s > 0))
         refuse(fmt::format("the time must be positive, got {} s", *options.time_limit_s));
+    if (options.target_error) check_target(options);
     if (options.sample_offset % kSampleBatch != 0)
         refuse(fmt::format("the sample offset must be a multiple of {}, got {}", kSampleBatch,
                            options.sample_offset));
@@ -79,7 +91,8 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     settings.bvh = options.bvh;
     settings.seed = folded(options.seed);
     settings.sampler = options.sampler;
-    const bool open_ended = options.time_limit_s && !options.samples_per_pixel;
+    const bool open_ended =
+        (options.time_limit_s || options.target_error) && !options.samples_per_pixel;
     settings.log2_samples =
         open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
     if (options.method == Method::aaf) settings.log2_samples = WEDGE_DOUBLING;

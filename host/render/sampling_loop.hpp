@@ -26,6 +26,7 @@ class SamplingLoop {
     }
 
     bool has_samples() const { return done_ > 0; }
+    uint64_t samples_done() const { return done_; }  ///< pixel samples
     double elapsed_s() const { return watch_.total(); }
 
   private:

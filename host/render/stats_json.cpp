@@ -5,6 +5,8 @@
 namespace wedge {
 namespace {
 
+using json = nlohmann::ordered_json;
+
 nlohmann::ordered_json device_json(const DeviceInfo& d) {
     return {{"index", d.index},
             {"name", d.name},
@@ -44,6 +46,9 @@ std::string stats_to_json(const RenderStats& s) {
         {"upload_s", s.upload_s},
         {"compile_s", s.compile_s},
         {"render_s", s.render_s},
+        {"render_cpu_s", s.render_cpu_s},
+        {"estimated_rmse", s.estimated_error ? json(s.estimated_error->rmse) : json()},
+        {"estimated_rel_mse", s.estimated_error ? json(s.estimated_error->rel_mse) : json()},
         {"programs_compiled", s.programs_compiled},
         {"programs_from_cache", s.programs_from_cache},
         {"interrupted", s.interrupted},

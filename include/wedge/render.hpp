@@ -34,6 +34,9 @@ enum class FilterMode { guarded, plain, none };
 /// As users write it: "guarded", "plain", "none".
 const char* to_string(FilterMode mode);
 
+/// docs/metrics.md.
+enum class ErrorMetric { rmse, rel_mse };
+
 struct Rect {
     int x = 0, y = 0, width = 0, height = 0;  ///< px
 };
@@ -59,6 +62,13 @@ struct RenderOptions {
     FilterMode filter = FilterMode::guarded;  ///< aaf
     /// aaf: false gives every pixel the same number of samples, samples_per_pixel or the probe's.
     bool adaptive = true;
+    /// mc: go on until the estimated error of the image is this small (> 0), or all
+    /// samples_per_pixel are there if they are given.
+    std::optional<double> target_error;
+    ErrorMetric target_metric = ErrorMetric::rel_mse;
+    /// mc: estimate the error of the image; costs a few copies of the film from the device. With a
+    /// target, and with aaf, it is estimated anyway.
+    bool estimate_error = false;
     /// A file for the state of the render, method mc only: saved while it runs and at its end, and
     /// gone on from if it is there, to the same bits as without a break. The caller removes it.
     /// Empty: none.
@@ -85,6 +95,11 @@ struct PassStats {
     uint64_t launches = 0;
 };
 
+/// Of the image, as a mean over pixels and R, G, B.
+struct EstimatedError {
+    double rmse = 0, rel_mse = 0;
+};
+
 struct RenderStats {
     DeviceInfo device;
     std::vector<PassStats> passes;
@@ -94,6 +109,8 @@ struct RenderStats {
     uint64_t device_bytes = 0;
     uint64_t triangles = 0, degenerate_triangles = 0, non_finite_triangles = 0;
     double flatten_s = 0, bvh_build_s = 0, upload_s = 0, compile_s = 0, render_s = 0;
+    double render_cpu_s = 0;  ///< of all threads of the process, while render_s went by
+    std::optional<EstimatedError> estimated_error;
     int programs_compiled = 0, programs_from_cache = 0;
     bool interrupted = false;  ///< by `stop`
     std::string
