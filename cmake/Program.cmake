@@ -1,6 +1,6 @@
 # What `wedge bench converge` measures with: a part on top of the library, so that tests can link it.
 if(WEDGE_WITH_IMAGE)
-    file(GLOB converge_sources CONFIGURE_DEPENDS bench/converge/*.cpp bench/baselines/*.cpp)
+    file(GLOB converge_sources CONFIGURE_DEPENDS bench/converge/*.cpp bench/baselines/*.cpp bench/stability/*.cpp)
     add_library(wedge_converge STATIC ${converge_sources})
     target_link_libraries(wedge_converge PUBLIC wedge wedge_options wedge_dep_glm wedge_dep_fmt
         wedge_dep_json wedge_dep_opencl_hpp)
@@ -16,7 +16,8 @@ endif()
 file(GLOB cli_sources CONFIGURE_DEPENDS host/cli/*.cpp bench/*.cpp)
 if(NOT WEDGE_WITH_IMAGE)
     list(REMOVE_ITEM cli_sources ${PROJECT_SOURCE_DIR}/host/cli/compare.cpp
-        ${PROJECT_SOURCE_DIR}/host/cli/bench_converge.cpp)
+        ${PROJECT_SOURCE_DIR}/host/cli/bench_converge.cpp
+        ${PROJECT_SOURCE_DIR}/host/cli/bench_stability.cpp)
 endif()
 add_executable(wedge_program ${cli_sources})
 set_target_properties(wedge_program PROPERTIES OUTPUT_NAME wedge)

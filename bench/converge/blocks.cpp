@@ -8,7 +8,9 @@ namespace wedge::converge {
 namespace {
 
 constexpr int kBlock_px = 16;
-constexpr double kClearly = 2;  // times the mean squared error
+constexpr double kClearly = 2;        // times the mean squared error
+constexpr double kTenth = 1.1 * 1.1;  // a tenth more, as RMSE
+constexpr double kRounding = 1e-4;    // of the image's mean: smaller errors are none
 
 /// Mean squared error by block, over the seeds of a rung.
 std::vector<double> block_errors(const Reference& reference, const Rung& rung) {
@@ -47,6 +49,14 @@ double expected_error(const std::vector<YardstickRung>& rungs, std::size_t block
     return ((1 - share) * a.error_times_time[block] + share * b.error_times_time[block]) / time;
 }
 
+/// Mean squared error that rounding may make.
+double smallest_that_counts(const Image& reference) {
+    double sum = 0;
+    for (float value : reference.pixels) sum += double(value);
+    const double mean = sum / double(std::max<std::size_t>(reference.pixels.size(), 1));
+    return kRounding * kRounding * mean * mean;
+}
+
 }  // namespace
 
 void measure_blocks(const Reference& reference, const Curve& yardstick, Curve& curve) {
@@ -59,16 +69,19 @@ void measure_blocks(const Reference& reference, const Curve& yardstick, Curve& c
     }
     std::sort(rungs.begin(), rungs.end(),
               [](const auto& a, const auto& b) { return a.log_time < b.log_time; });
+    const double least = smallest_that_counts(reference.mean);
     for (Rung& rung : curve.rungs) {
         const std::vector<double> errors = block_errors(reference, rung);
-        std::size_t worse = 0, twice = 0;
+        std::size_t worse = 0, twice = 0, tenth = 0;
         for (std::size_t block = 0; block < errors.size(); ++block) {
             const double expected = expected_error(rungs, block, rung.time_s.median);
             worse += errors[block] > expected;
             twice += errors[block] > kClearly * std::max(expected, 0.0);
+            tenth += errors[block] > kTenth * std::max(expected, 0.0) + least;
         }
         rung.blocks_worse = double(worse) / double(errors.size());
         rung.blocks_twice = double(twice) / double(errors.size());
+        rung.blocks_tenth = double(tenth) / double(errors.size());
     }
 }
 

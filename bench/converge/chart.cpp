@@ -90,7 +90,7 @@ std::string axes_svg(const Axis& x, const Axis& y, const Chart& chart) {
     return svg;
 }
 
-std::string series_svg(const Series& series, const Axis& x, const Axis& y) {
+std::string series_svg(const Series& series, bool joined, const Axis& x, const Axis& y) {
     std::string line, upper, lower, marks;
     for (const Series::Place& p : series.places) {
         if (!is_shown(p)) continue;
@@ -105,6 +105,7 @@ std::string series_svg(const Series& series, const Axis& x, const Axis& y) {
             series_class(series.index), x.at(p.x.low), x.at(p.x.high), py);
         marks += marker_svg(series.index, px, py) + "</g>";
     }
+    if (!joined) return marks + "\n";
     const std::string name = series_class(series.index);
     return fmt::format(
         "<polygon class=\"ribbon {0}\" points=\"{1}{2}\"/><polyline class=\"line {0}\" "
@@ -113,13 +114,16 @@ std::string series_svg(const Series& series, const Axis& x, const Axis& y) {
 }
 
 std::string guide_svg(const Chart& chart, const Axis& x, const Axis& y) {
+    const double low = x.low, high = x.high;
+    if (chart.scatter)
+        return fmt::format("<line class=\"guide\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/>\n",
+                           x.from, y.from, x.to, y.to);
     if (chart.guide_slope == 0 || chart.series.empty()) return "";
     const auto& places = chart.series.front().places;
     const auto first = std::find_if(places.begin(), places.end(), is_shown);
     if (first == places.end()) return "";
     const double offset =
         std::log10(first->y.median) - chart.guide_slope * std::log10(first->x.median);
-    const double low = x.low, high = x.high;
     return fmt::format(
         "<line class=\"guide\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" "
         "y2=\"{:.1f}\"/>\n",
@@ -140,6 +144,10 @@ std::string chart_svg(const Chart& chart) {
             y_high = std::max(y_high, p.y.high);
         }
     if (!(x_high > 0)) return "<p class=\"soft\">Nothing to draw: no error is above zero.</p>";
+    if (chart.scatter) {
+        x_low = y_low = std::min(x_low, y_low);
+        x_high = y_high = std::max(x_high, y_high);
+    }
     const Axis x = axis_over(x_low, x_high, kLeft, kWidth - kRight);
     const Axis y = axis_over(y_low, y_high, kHeight - kBottom, kTop);
     std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
@@ -149,7 +157,7 @@ std::string chart_svg(const Chart& chart) {
         "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} "
         "{3}\">{4}</svg>\n",
         x.from, y.to, x.to - x.from, y.from - y.to, guide_svg(chart, x, y));
-    for (const Series& series : chart.series) svg += series_svg(series, x, y);
+    for (const Series& series : chart.series) svg += series_svg(series, !chart.scatter, x, y);
     return svg + "</svg>\n";
 }
 

@@ -23,6 +23,7 @@ struct Chart {
     std::string title, x_label, y_label;
     std::vector<Series> series;
     double guide_slope = 0;  ///< a dashed line of this slope through the first series; 0: none
+    bool scatter = false;  ///< points are not joined, axes are alike, and the dashed line is y = x
 };
 
 /// 480 units wide; text stays readable at the width of a phone.

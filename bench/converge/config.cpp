@@ -67,13 +67,15 @@ void apply(const json& object, const fs::path& base, Config& config) {
             config.bounces = value.get<int>();
         } else if (key == "reference_spp") {
             config.reference_spp = value.get<int>();
+        } else if (key == "reference_sampler") {
+            config.reference_sampler = parse_reference_sampler(value.get<std::string>());
         } else if (key == "title") {
             config.title = value.get<std::string>();
         } else if (key != "short" && key != "comment") {
             throw Error(ErrorKind::bad_input,
                         "/" + key +
                             ": unknown key; known: scenes, methods, budgets, seeds, size, bounces, "
-                            "reference_spp, title, short, comment");
+                            "reference_spp, reference_sampler, title, short, comment");
         }
     }
 }
@@ -115,16 +117,20 @@ void parse_budgets(const std::string& text, Budgets& budgets) {
     }
 }
 
+void apply_config(const json& object, const fs::path& folder, bool short_form, Config& config) {
+    apply(object, folder, config);
+    if (!short_form) return;
+    if (!object.contains("short"))
+        throw Error(ErrorKind::bad_input, "/short: is missing, but --short asks for it");
+    apply(object["short"], folder, config);
+}
+
 void read_config(const fs::path& file, bool short_form, Config& config) {
     std::ifstream in(file);
     if (!in) throw Error(ErrorKind::bad_input, file.string() + ": cannot be read");
     try {
         const json object = json::parse(in, nullptr, true, true);
-        apply(object, file.parent_path(), config);
-        if (!short_form) return;
-        if (!object.contains("short"))
-            throw Error(ErrorKind::bad_input, "/short: is missing, but --short asks for it");
-        apply(object["short"], file.parent_path(), config);
+        apply_config(object, file.parent_path(), short_form, config);
     } catch (const json::exception& error) {
         throw Error(ErrorKind::bad_input, fmt::format("{}: {}", file.string(), error.what()));
     } catch (const Error& error) {

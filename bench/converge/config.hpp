@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ struct Config {
     std::filesystem::path folder;  ///< of everything that is written; empty: named after the scene
     std::filesystem::path references;  ///< empty: `folder`/references
     std::string device, kernel_dir;
+    bool estimate_errors = false;  ///< by the renders themselves, to compare with the true ones
+    /// Time is processor time over the device's compute units: for machines that others use too.
+    /// For CPUs only.
+    bool cpu_clock = false;
     bool any_build = false;      ///< take finished runs of other builds of the program too
     std::string title, command;  ///< for the report
     const std::atomic<bool>* stop = nullptr;
@@ -60,6 +65,11 @@ void parse_budgets(const std::string& text, Budgets& budgets);
 /// Fills `config` from a JSON file (docs/bench.md), with the values under "short" on top if asked
 /// for. Scene paths are relative to the file. Throws Error(bad_input) with the key.
 void read_config(const std::filesystem::path& file, bool short_form, Config& config);
+
+/// The same from an object that is read already. Throws Error(bad_input),
+/// nlohmann::json::exception.
+void apply_config(const nlohmann::json& object, const std::filesystem::path& folder,
+                  bool short_form, Config& config);
 
 /// Rungs of the ladder that `method` climbs.
 std::vector<Budget> ladder(const Config& config, const Method& method);

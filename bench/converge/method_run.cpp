@@ -26,7 +26,8 @@ void add_half(RenderStats& stats, const RenderStats& half) {
 
 }  // namespace
 
-double counted_seconds(const RenderStats& stats) {
+double counted_seconds(const RenderStats& stats, bool cpu_clock) {
+    if (cpu_clock) return stats.render_cpu_s / std::max(1u, stats.device.compute_units);
     return stats.flatten_s + stats.upload_s + stats.render_s;
 }
 
@@ -35,6 +36,7 @@ RenderOptions MethodRunner::options(const Method& method, double knob, uint32_t 
     o.device = config_.device;
     o.kernel_dir = config_.kernel_dir;
     o.stop = config_.stop;
+    o.estimate_error = config_.estimate_errors;
     return o;
 }
 

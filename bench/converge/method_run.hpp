@@ -28,7 +28,8 @@ class MethodRunner {
     std::unique_ptr<baselines::Denoiser> denoiser_;
 };
 
-/// What charts show: everything but reading files, compiling kernels, building the BVH.
-double counted_seconds(const RenderStats& stats);
+/// What charts show: wall time of everything but reading files, compiling kernels, building the
+/// BVH; or processor time of samples and filters over the number of compute units.
+double counted_seconds(const RenderStats& stats, bool cpu_clock = false);
 
 }  // namespace wedge::converge

@@ -18,6 +18,13 @@ void monte_carlo(RenderOptions& o) {
     o.sampler = kSampler;
 }
 
+constexpr uint64_t kControlSeeds = 1u << 18;  // apart from those of runs, halves and references
+
+void control(RenderOptions& o) {
+    monte_carlo<Sampler::sobol>(o);
+    o.seed = kControlSeeds;
+}
+
 template <FilterMode kFilter, bool kAdaptive, Sampler kSampler = Sampler::sobol>
 void aaf(RenderOptions& o) {
     o.method = wedge::Method::aaf;
@@ -60,6 +67,9 @@ constexpr Method kMethods[] = {
      {},
      "mc-sobol",
      "oidn"},
+    {"mc-control", "mc-sobol with other seeds: what luck does", Knob::spp, false, control},
+    {"aaf-uniform", "aaf with the same samples in every pixel", Knob::spp, true,
+     aaf<FilterMode::guarded, false>},
 };
 
 const char* name_of(wedge::Method method) {
@@ -91,7 +101,7 @@ const Method& find_method(const std::string& name) {
 RenderOptions options_for(const Method& method, double value, uint32_t seed) {
     RenderOptions options;
     method.configure(options);
-    options.seed = seed;
+    options.seed += seed;
     if (method.knob == Knob::spp)
         options.samples_per_pixel = int(std::max(1.0, std::round(value)));
     else

@@ -36,14 +36,15 @@ std::string scene_html(const SceneAnalysis& scene) {
 
 }  // namespace
 
-std::string report_html(const Config& config, const Analysis& analysis) {
+std::string report_html(const Config& config, const Analysis& analysis,
+                        const std::string& section) {
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<meta "
         "name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
         escaped(config.title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
     html += fmt::format("<header><h1>{}</h1>\n<p class=\"lead\">{}</p>\n{}</header>\n",
                         escaped(config.title), headline(config, analysis), navigation(analysis));
-    html += "<main>\n" + warnings_html(analysis) + summary_section(analysis);
+    html += "<main>\n" + section + warnings_html(analysis) + summary_section(analysis);
     for (const SceneAnalysis& scene : analysis.scenes) html += scene_html(scene);
     return html + how_section(config, analysis) + "</main>\n</body>\n</html>\n";
 }

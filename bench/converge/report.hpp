@@ -7,7 +7,8 @@
 
 namespace wedge::converge {
 
-/// Well-formed: every element is closed, as in XML.
-std::string report_html(const Config& config, const Analysis& analysis);
+/// Well-formed: every element is closed, as in XML. `section`: HTML that comes before all others.
+std::string report_html(const Config& config, const Analysis& analysis,
+                        const std::string& section = "");
 
 }  // namespace wedge::converge

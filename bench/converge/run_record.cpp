@@ -51,6 +51,7 @@ json to_json(const RunRecord& r) {
             {"rays", r.rays},
             {"samples", r.samples},
             {"non_finite_samples", r.non_finite_samples},
+            {"predicted_rmse", r.predicted_rmse},
             {"device", r.device},
             {"driver", r.driver},
             {"platform", r.platform},
@@ -86,6 +87,7 @@ RunRecord run_record_from(const json& o) {
     get("rays", r.rays);
     get("samples", r.samples);
     get("non_finite_samples", r.non_finite_samples);
+    get("predicted_rmse", r.predicted_rmse);
     get("device", r.device);
     get("driver", r.driver);
     get("platform", r.platform);

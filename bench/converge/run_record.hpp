@@ -24,6 +24,7 @@ struct RunRecord {
     double flatten_s = 0, bvh_build_s = 0, upload_s = 0, compile_s = 0, render_s = 0;
     std::vector<PassStats> passes;
     uint64_t rays = 0, samples = 0, non_finite_samples = 0;
+    double predicted_rmse = -1;  ///< estimated by the render itself; -1: it did not
     std::string device, driver, platform, version, commit;
     std::string program;      ///< program_digest()
     nlohmann::json settings;  ///< the same in every scene

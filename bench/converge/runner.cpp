@@ -84,13 +84,14 @@ Image kept_layers(const Image& image, bool is_unfiltered) {
     return kept;
 }
 
-void copy_stats(const RenderStats& stats, RunRecord& record) {
+void copy_stats(const RenderStats& stats, bool cpu_clock, RunRecord& record) {
     record.flatten_s = stats.flatten_s;
     record.bvh_build_s = stats.bvh_build_s;
     record.upload_s = stats.upload_s;
     record.compile_s = stats.compile_s;
     record.render_s = stats.render_s;
-    record.time_s = counted_seconds(stats);
+    record.time_s = counted_seconds(stats, cpu_clock);
+    if (stats.estimated_error) record.predicted_rmse = stats.estimated_error->rmse;
     record.passes = stats.passes;
     record.rays = stats.rays;
     record.samples = stats.samples;
@@ -148,7 +149,7 @@ class SceneRunner {
         auto [calibration, is_new] = calibrations_.try_emplace(&method);
         if (is_new)
             calibration->second = calibrate(method.knob, [&](double knob) {
-                return counted_seconds(methods_.run(method, knob, 0).stats);
+                return counted_seconds(methods_.run(method, knob, 0).stats, config_.cpu_clock);
             });
         return knob_for_seconds(calibration->second, method.knob, budget.value);
     }
@@ -177,7 +178,7 @@ class SceneRunner {
                                      out_.film.width, out_.film.height, out_.bounces,
                                      render_arguments(methods_.options(method, knob, task.seed))) +
                          (method.filter ? fmt::format(" # then {}", method.name) : "");
-        copy_stats(frame.stats, record);
+        copy_stats(frame.stats, config_.cpu_clock, record);
         record.image = fmt::format("images/{}-{}-{}{:g}-seed{}-{}.exr", out_.name, method.name,
                                    name_of(task.budget.unit), task.budget.value, task.seed,
                                    task.key.substr(0, 8));

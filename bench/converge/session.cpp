@@ -41,7 +41,7 @@ std::vector<std::string> drop_absent_methods(const std::vector<SceneRuns>& scene
 }  // namespace
 
 Outcome converge(const Config& asked, const LoadOptions& load,
-                 const std::filesystem::path& markdown, const Say& say) {
+                 const std::filesystem::path& markdown, const Say& say, const Section& section) {
     std::vector<SceneRuns> scenes;
     for (const std::string& file : asked.scenes)
         scenes.push_back(run_scene(asked, file, load, say));
@@ -65,7 +65,8 @@ Outcome converge(const Config& asked, const LoadOptions& load,
         outcome.warnings.insert(outcome.warnings.end(), scene.warnings.begin(),
                                 scene.warnings.end());
     write_file_atomically(outcome.json, results_json(config, analysis).dump(1) + "\n");
-    write_file_atomically(outcome.report, report_html(config, analysis));
+    write_file_atomically(outcome.report,
+                          report_html(config, analysis, section ? section(analysis) : ""));
     if (!markdown.empty()) write_file_atomically(markdown, markdown_tables(config, analysis));
     return outcome;
 }

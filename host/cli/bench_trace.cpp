@@ -201,6 +201,7 @@ void register_bench(CLI::App& app) {
     command->callback([arguments] { run(*arguments); });
 #if WEDGE_WITH_IMAGE
     register_bench_converge(*group);
+    register_bench_stability(*group);
 #endif
 }
 

@@ -10,13 +10,14 @@ class App;
 
 namespace wedge::cli {
 
-void register_render(CLI::App& app);            // render.cpp
-void register_devices(CLI::App& app);           // devices.cpp
-void register_info(CLI::App& app);              // info.cpp
-void register_explain(CLI::App& app);           // explain.cpp
-void register_compare(CLI::App& app);           // compare.cpp; needs image support
-void register_bench(CLI::App& app);             // bench_trace.cpp; with what the next adds
-void register_bench_converge(CLI::App& bench);  // bench_converge.cpp; needs image support
+void register_render(CLI::App& app);             // render.cpp
+void register_devices(CLI::App& app);            // devices.cpp
+void register_info(CLI::App& app);               // info.cpp
+void register_explain(CLI::App& app);            // explain.cpp
+void register_compare(CLI::App& app);            // compare.cpp; needs image support
+void register_bench(CLI::App& app);              // bench_trace.cpp; with what the next adds
+void register_bench_converge(CLI::App& bench);   // bench_converge.cpp; needs image support
+void register_bench_stability(CLI::App& bench);  // bench_stability.cpp; needs image support
 
 /// Exit codes beside those of ErrorKind (docs/cli.md).
 inline constexpr int kExitInterrupted = 130;  // as shells report SIGINT
