@@ -5,12 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bench/trace_bench.hpp"
+#include "host/base/atomic_file.hpp"
 #include "host/cli/asset_paths.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/text.hpp"
@@ -126,10 +126,8 @@ void write_json(const std::string& file, const device::Device& device,
                       {"driver", device.info().driver},
                       {"scenes", ordered_json::array()}};
     for (const bench::TraceReport& report : reports) json["scenes"].push_back(json_of(report));
-    std::ofstream out(file);
-    out << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
-    out.flush();
-    if (!out) throw Error(ErrorKind::output, fmt::format("{}: cannot write", file));
+    write_file_atomically(file,
+                          json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 /// Rays do not see colours, so no image is read.
