@@ -12,5 +12,4 @@ target_compile_definitions(wedge_image PRIVATE
 target_include_directories(wedge_codec PRIVATE
     $<TARGET_PROPERTY:wedge_image,INTERFACE_INCLUDE_DIRECTORIES>)
 target_link_libraries(wedge_codec PRIVATE wedge_options wedge_dep_fmt OpenImageIO::OpenImageIO)
-add_dependencies(wedge_image wedge_codec)
 list(APPEND CMAKE_BUILD_RPATH $<TARGET_FILE_DIR:wedge_codec>)
