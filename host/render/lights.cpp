@@ -14,9 +14,14 @@ double luminance(const Vec3& c) {
     return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
-/// Mean of exp(-r^2 / (2 sigma^2)) along an edge, with sigma as a fraction of the edge.
+/// Share of a Gaussian about an edge's middle that lies on the edge, with sigma as a fraction of it.
+double gaussian_share(double sigma) {
+    return std::erf(0.5 / (sigma * std::sqrt(2.0)));
+}
+
+/// Mean of exp(-r^2 / (2 sigma^2)) along an edge.
 double gaussian_mean(double sigma) {
-    return sigma * std::sqrt(2.0 * double(kPi)) * std::erf(0.5 / (sigma * std::sqrt(2.0)));
+    return sigma * std::sqrt(2.0 * double(kPi)) * gaussian_share(sigma);
 }
 
 }  // namespace
@@ -41,9 +46,12 @@ int LightList::add_rect(const RectLight& rect) {
     const double area = glm::length(glm::dvec3(normal));
     shared::Light light{};
     double sigma_u = 0, sigma_v = 0;
+    light.profile = {1, 1, 1, 0};
     if (rect.profile == LightProfile::gaussian) {
         sigma_u = rect.sigma / glm::length(rect.edge_u);
         sigma_v = rect.sigma / glm::length(rect.edge_v);
+        light.profile = {float(gaussian_share(sigma_u)), float(gaussian_share(sigma_v)),
+                         float(gaussian_mean(sigma_u) * gaussian_mean(sigma_v)), 0};
     }
     light.origin = to_float4(rect.center - 0.5f * (rect.edge_u + rect.edge_v), area);
     light.edge_u = to_float4(rect.edge_u, sigma_u);

@@ -101,7 +101,7 @@ TEST_CASE("irradiance_under_a_rectangle_is_that_of_the_closed_form") {
                           .edge_u = {1.2f, 0, 0},
                           .edge_v = {0, 0, 0.8f},
                           .radiance = Vec3(1)};
-    for (float distance : {0.25f, 1.0f, 4.0f})
+    for (float distance : {0.25f, 1.0f, 4.0f, 20.0f})
         for (float tilt : {0.0f, 0.3f, 0.7f, 1.2f}) {
             CAPTURE(distance);
             CAPTURE(tilt);
@@ -126,6 +126,11 @@ TEST_CASE("irradiance_under_a_rectangle_is_that_of_the_closed_form") {
                 polygon_irradiance({c - hu - hv, c + hu - hv, c + hu + hv, c - hu + hv}, normal);
             for (Sampler sampler : {Sampler::sobol, Sampler::hash})
                 check_mean(render(scene, quick(256, 0, sampler)).image, "direct.G", truth, 0.01);
+            // Filtered shadows multiply unshadowed light that is computed, not sampled.
+            RenderOptions filtered = quick(16, 0);
+            filtered.method = Method::aaf;
+            for (double value : channel_values(render(scene, filtered).image, "direct.G"))
+                CHECK(value == doctest::Approx(truth).epsilon(1e-3));
         }
 }
 
