@@ -1,10 +1,11 @@
 /* The guard: how much to filter is decided pixel by pixel, by estimated error.
 
    The two halves of a pixel's samples are independent. What one half was filtered to, compared with what the other
-   is without a filter, tells the square of bias and noise of the filtered half, plus the noise of the other, which
+   half of the pixel's own samples makes of the same surfaces, tells the square of bias and noise of the filtered half, plus the noise of the other, which
    the difference of the two unfiltered halves tells (the dual buffers of Rousselle, Knaus, Zwicker 2012). Such
    estimates are as noisy as what they are made from; their means over neighbouring pixels decide. A rare bright
-   sample in one half cancels: with both filtered halves alike, the estimate is (f - u0) (f - u1).
+   sample in one half cancels: with both filtered halves alike, the estimate is (f - u0) (f - u1). What no filter can change, coverage of pixels by surfaces, is alike in all and
+   does not count.
 
      guard_errors      estimates for each pixel
      guard_smooth_x, guard_smooth_y   their means over neighbours
@@ -14,35 +15,29 @@
 
 inline float square(float4 v) { return dot(v.xyz, v.xyz) * (1.0f / 3.0f); }
 
-/* Mean square error of (f0 + f1) / 2; `noise`: mean square of u0 - u1. */
-inline float filtered_error(float4 f0, float4 f1, float4 u0, float4 u1, float noise) {
-    return 0.5f * (square(f0 - u1) + square(f1 - u0)) - 0.5f * noise - 0.25f * square(f0 - f1);
+/* Mean square error of f, the mean of two halves; u: the pixel's own halves, `noise`: mean square of their difference. */
+inline float filtered_error(__global const float4* f, __global const float4* u, float noise) {
+    return 0.5f * (square(f[0] - u[1]) + square(f[1] - u[0])) - 0.5f * noise - 0.25f * square(f[0] - f[1]);
 }
 
-inline float4 errors_of(__global const float4* full, __global const float4* half_width, float4 u0,
-                        float4 u1) {
-    const float noise = square(u0 - u1);
-    const float e = filtered_error(full[0], full[1], u0, u1, noise);
-    return (float4)(e, filtered_error(half_width[0], half_width[1], u0, u1, noise), 0.25f * noise,
-                    e * e);
+/* By scale. The pixel's own samples have no bias. */
+inline float4 errors_of(__global const float4* none, __global const float4* narrow,
+                        __global const float4* full) {
+    const float noise = square(none[0] - none[1]);
+    return (float4)(0.25f * noise, filtered_error(narrow, none, noise),
+                    filtered_error(full, none, noise), 0.0f);
 }
 
-__kernel void guard_errors(__global const HalfLight* restrict unfiltered,
-                           __global const HalfLight* restrict full,
-                           __global const HalfLight* restrict half_width,
+__kernel void guard_errors(__global const HalfLight* restrict light,
                            __global FilterErrors* restrict errors, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    __global const HalfLight* u = unfiltered + id;
+    __global const HalfLight *none = light + id, *narrow = none + count, *full = narrow + count;
     FilterErrors e;
-    e.direct = e.indirect = (float4)(0.0f);
-    const float n0 = u->direct[0].w, n1 = u->direct[1].w;
-    if (n0 > 0.0f && n1 > 0.0f) {
-        e.direct = errors_of(full[id].direct, half_width[id].direct, u->direct[0] / n0,
-                             u->direct[1] / n1);
-        e.indirect = errors_of(full[id].indirect, half_width[id].indirect, u->indirect[0] / n0,
-                               u->indirect[1] / n1);
-    }
+    e.direct = errors_of(none->direct, narrow->direct, full->direct);
+    e.indirect = errors_of(none->indirect, narrow->indirect, full->indirect);
+    e.direct_squared = e.direct * e.direct;
+    e.indirect_squared = e.indirect * e.indirect;
     errors[id] = e;
 }
 
@@ -53,15 +48,20 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
 inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,
                                 int before, int after) {
     FilterErrors sum;
-    sum.direct = sum.indirect = (float4)(0.0f);
+    sum.direct = sum.direct_squared = sum.indirect = sum.indirect_squared = (float4)(0.0f);
     const int begin = -min(before, WEDGE_GUARD_RADIUS), end = min(after, WEDGE_GUARD_RADIUS);
     for (int i = begin; i <= end; ++i) {
-        sum.direct += errors[first + i * stride].direct;
-        sum.indirect += errors[first + i * stride].indirect;
+        __global const FilterErrors* e = errors + first + i * stride;
+        sum.direct += e->direct;
+        sum.direct_squared += e->direct_squared;
+        sum.indirect += e->indirect;
+        sum.indirect_squared += e->indirect_squared;
     }
     const float share = 1.0f / (float)(end - begin + 1);
     sum.direct *= share;
+    sum.direct_squared *= share;
     sum.indirect *= share;
+    sum.indirect_squared *= share;
     return sum;
 }
 
@@ -77,37 +77,51 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
     if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
 }
 
-/* rgb, and the filter's share of it, halved where the narrower filter was taken. Bias and noise are independent, so
-   the mean weighted by the errors is better than both. Of the filter's error the standard error of its estimate is
-   taken off: where it is a matter of luck which seems better, the filter is the better guess. */
-inline float4 choose(float4 errors, __global const float4* full, __global const float4* half_width,
-                     float4 unfiltered, float* error) {
-    const bool narrow = errors.y < errors.x;
-    const float filter_error = fmin(errors.x, errors.y), noise = errors.z;
-    const float variance = fmax(errors.w - errors.x * errors.x, 0.0f);
-    const float spread = sqrt(variance * (1.0f / (WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE - 1.0f)));
-    const float certain = fmax(filter_error - spread, 0.0f);
-    const float share = certain > 0.0f ? noise / (noise + certain) : 1.0f;
-    const float4 filtered = narrow ? 0.5f * (half_width[0] + half_width[1]) : 0.5f * (full[0] + full[1]);
-    *error = share * share * fmax(filter_error, 0.0f) + (1.0f - share) * (1.0f - share) * noise;
-    return (float4)(mix(unfiltered.xyz, filtered.xyz, share), narrow ? 0.5f * share : share);
+/* Standard error of the estimate `error`, whose mean square is known. */
+inline float standard_error(float error, float mean_square) {
+    const float variance = fmax(mean_square - error * error, 0.0f);
+    return sqrt(variance * (1.0f / (WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE - 1.0f)));
 }
 
-/* As `choose`, but with the filter everywhere or nowhere. */
-inline float4 choose_by_mode(int mode, float4 errors, __global const float4* full,
-                             __global const float4* half_width, float4 unfiltered, float* error) {
-    if (mode == WEDGE_FILTER_MODE_GUARDED)
-        return choose(errors, full, half_width, unfiltered, error);
-    const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
-    *error = plain ? fmax(errors.x, 0.0f) : errors.z;
-    return plain ? (float4)(0.5f * (full[0].xyz + full[1].xyz), 1.0f)
-                 : (float4)(unfiltered.xyz, 0.0f);
+inline float4 mean_of_halves(__global const float4* light) { return 0.5f * (light[0] + light[1]); }
+
+/* Of the filter's error this many standard errors of its estimate are taken off: where it is a matter of luck
+   which seems better, the filter is the better guess. */
+#define WEDGE_BENEFIT_OF_DOUBT 1.0f
+
+/* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so the mean of a
+   filter and none weighted by the errors is better than both. */
+inline float4 choose(float4 errors, float4 squares, float4 none, float4 narrow, float4 full,
+                     float* error) {
+    const bool is_narrow = errors.y < errors.z;
+    const float filter_error = fmin(errors.y, errors.z), noise = errors.x;
+    const float doubt =
+        WEDGE_BENEFIT_OF_DOUBT * standard_error(filter_error, is_narrow ? squares.y : squares.z);
+    const float certain = fmax(filter_error - doubt, 0.0f);
+    const float share = certain > 0.0f ? noise / (noise + certain) : 1.0f;
+    *error = share * share * fmax(filter_error, 0.0f) + (1.0f - share) * (1.0f - share) * noise;
+    const float4 filtered = is_narrow ? narrow : full;
+    return (float4)(mix(none.xyz, filtered.xyz, share), is_narrow ? 0.5f * share : share);
 }
+
+/* As `choose`, but with the filter everywhere or nowhere. `light`: of a pixel by scale, `stride` apart. */
+inline float4 choose_by_mode(int mode, float4 errors, float4 squares, __global const float4* light,
+                             uint stride, float4 unfiltered, float* error) {
+    const float4 full = mean_of_halves(light + 2 * stride);
+    if (mode == WEDGE_FILTER_MODE_GUARDED)
+        return choose(errors, squares, mean_of_halves(light), mean_of_halves(light + stride), full,
+                      error);
+    const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
+    *error = plain ? fmax(errors.z, 0.0f) : errors.x;
+    return plain ? (float4)(full.xyz, 1.0f) : (float4)(unfiltered.xyz, 0.0f);
+}
+
+/* float4 from one pixel's HalfLight to the same of the next scale. */
+#define WEDGE_STRIDE(count) ((count) * (uint)(sizeof(HalfLight) / sizeof(float4)))
 
 __kernel void guard_choose(__constant FilterSettings* settings,
                            __global const HalfLight* restrict unfiltered,
-                           __global const HalfLight* restrict full,
-                           __global const HalfLight* restrict half_width,
+                           __global const HalfLight* restrict light,
                            __global const FilterErrors* restrict errors,
                            __global GuardedPixel* restrict guarded, uint count) {
     const uint id = get_global_id(0);
@@ -118,11 +132,11 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     g.error = (float4)(0.0f);
     float error;
     const int mode = settings->mode;
-    g.direct = choose_by_mode(mode, errors[id].direct, full[id].direct, half_width[id].direct,
-                      (u->direct[0] + u->direct[1]) / n, &error);
+    g.direct = choose_by_mode(mode, errors[id].direct, errors[id].direct_squared, light[id].direct, WEDGE_STRIDE(count),
+                              (u->direct[0] + u->direct[1]) / n, &error);
     g.error.x = error;
-    g.indirect = choose_by_mode(mode, errors[id].indirect, full[id].indirect, half_width[id].indirect,
-                        (u->indirect[0] + u->indirect[1]) / n, &error);
+    g.indirect = choose_by_mode(mode, errors[id].indirect, errors[id].indirect_squared, light[id].indirect, WEDGE_STRIDE(count),
+                                (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
     guarded[id] = g;
 }

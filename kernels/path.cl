@@ -95,7 +95,7 @@ inline void note_reflector(const PixelSignals* signals, int surface, float dista
 #endif
 
 #ifdef WEDGE_FILTER_HEMISPHERE
-#define WEDGE_SKY_IS_FILTERED 1
+#define WEDGE_DEPTH_OF_DIRECT_SKY (-1) /* filtered with the rest of the hemisphere */
 
 inline void add_hemisphere(const PixelSignals* signals, int surface, const FirstBounce* first,
                            float3 arriving) {
@@ -107,7 +107,7 @@ inline void add_hemisphere(const PixelSignals* signals, int surface, const First
 #endif
 }
 #else
-#define WEDGE_SKY_IS_FILTERED 0
+#define WEDGE_DEPTH_OF_DIRECT_SKY 1
 #endif
 
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
@@ -121,7 +121,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 #if WEDGE_SIGNALS > 0
     result.filtered_direct = result.filtered_indirect = (float3)(0.0f);
     int surface = 0;
-    bool by_lobe = false;
+    bool by_lobe = false, lit = false;
 #endif
     const float3 background = params->background.xyz;
     const int bounces = params->bounces;
@@ -137,7 +137,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         if (hit.primitive == WEDGE_NO_PRIMITIVE) {
             if (depth == 0)
                 result.emission = background;
-            else if (depth == 1 && !WEDGE_SKY_IS_FILTERED)
+            else if (depth == WEDGE_DEPTH_OF_DIRECT_SKY)
                 result.direct += first.reflected * background;
             else
                 arriving += throughput * background;
@@ -174,10 +174,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             result.depth = hit.t * dot(ray.direction, view_axis);
 #if WEDGE_SIGNALS > 0
             surface = add_to_surface(signals, &s, &f, hit.t * signals->pixel_angle);
-            if (signals->camera_only) {
+            lit = !signals->camera_only || lacks_light(signals, surface);
+            if (!lit) {
 #if WEDGE_SHADOW_LIGHTS > 0
-                sample_shadow_lights(scene, &s, &f, wo, sampler, surface, signals,
-                                     &result.filtered_direct);
+                reflect_shadow_lights(scene, &s, &f, sampler, surface, signals);
 #endif
                 break;
             }
@@ -242,7 +242,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     }
     if (max_component(arriving) > 0.0f) result.indirect = first.reflected * arriving;
 #ifdef WEDGE_FILTER_HEMISPHERE
-    if (result.hit > 0.0f && surface >= 0 && !signals->camera_only) {
+    if (surface >= 0 && lit) {
         add_hemisphere(signals, surface, &first, arriving);
         result.filtered_indirect = result.indirect;
     }
@@ -251,11 +251,12 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 }
 
 #if WEDGE_SIGNALS > 0
-inline void add_unfiltered(const PixelSignals* signals, float3 direct, float3 indirect) {
-    if (!all_finite(direct + indirect)) return;
+inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
+    const float3 rest = r->direct + r->indirect - r->filtered_direct - r->filtered_indirect;
+    if (!all_finite(r->filtered_direct + r->filtered_indirect + rest)) return;
     const int half_index = signals->half_index;
-    signals->unfiltered->direct[half_index] += (float4)(direct, 1.0f);
-    signals->unfiltered->indirect[half_index].xyz += indirect;
+    signals->unfiltered->direct[half_index] += (float4)(r->filtered_direct, 1.0f);
+    signals->unfiltered->indirect[half_index] += (float4)(r->filtered_indirect, luminance(rest));
 }
 
 #define WEDGE_IS_WHOLE_PATH (!signals.camera_only)
@@ -264,7 +265,8 @@ inline void add_unfiltered(const PixelSignals* signals, float3 direct, float3 in
 #endif
 
 /* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel +
-   pixel_count) of the crop, counted along its rows; with filters, no more than sample_ends says. Both sample
+   pixel_count) of the crop, counted along its rows; with filters, to those of pixel_list, and no more than
+   sample_ends says. Both sample
    numbers are multiples of WEDGE_SAMPLE_BATCH: sums are taken batch by batch, so that any split of the samples into
    launches adds up alike. WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel
    at a time. */
@@ -277,7 +279,11 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const Scene scene = WEDGE_SCENE_ARGS;
     const CameraRays camera = params->camera;
     const float3 view_axis = normalize(cross(camera.step_x.xyz, camera.step_y.xyz));
+#if WEDGE_SIGNALS > 0
+    const uint pixel = pixel_list[first_pixel + id];
+#else
     const uint pixel = first_pixel + id;
+#endif
     const uint x = (uint)params->crop_x + pixel % (uint)params->crop_width;
     const uint y = (uint)params->crop_y + pixel / (uint)params->crop_width;
     const uint code = morton_code(x, y);
@@ -296,6 +302,7 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
         filter_settings->pixel_angle,
         0,
         probing,
+        0,
         0};
 #endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
@@ -305,8 +312,10 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                 make_sampler(params->sampler, params->seed, params->log2_samples,
                              (uint)params->strata, code, first_sample + batch + i);
 #if WEDGE_SIGNALS > 0
-            signals.half_index = first_sample + batch + i >= halves;
-            signals.camera_only = first_sample + batch + i >= ends.x;
+            const uint index = first_sample + batch + i;
+            signals.camera_only = index >= ends.x;
+            signals.half_index = signals.camera_only ? index & 1u : index >= halves;
+            signals.probing_lights = probing && index < WEDGE_LIGHT_PROBES;
 #endif
             const float2 jitter = draw_2d(&sampler, WEDGE_DIMENSION_FILM);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
@@ -318,7 +327,7 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
             if (signals.camera_only)
                 add_camera_sample(&sum, r.emission, r.rays);
             else
-                add_unfiltered(&signals, r.filtered_direct, r.filtered_indirect);
+                add_unfiltered(&signals, &r);
 #endif
             add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
         }

@@ -88,6 +88,15 @@ cl::Buffer Device::upload_bytes(const void* data, uint64_t bytes, const std::str
     return buffer;
 }
 
+void Device::overwrite(const cl::Buffer& buffer, const void* data, uint64_t bytes) {
+    if (bytes == 0) return;
+    try {
+        queue_.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data);
+    } catch (const cl::Error& error) {
+        throw_status(info_.name, fmt::format("write {:.1f} MiB", mebibytes(bytes)), error.err());
+    }
+}
+
 void Device::download(const cl::Buffer& buffer, void* data, uint64_t bytes) {
     if (bytes == 0) return finish();
     try {

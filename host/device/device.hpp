@@ -43,6 +43,8 @@ class Device {
     cl::Buffer upload_bytes(const void* data, uint64_t bytes, const std::string& what,
                             cl_mem_flags flags = CL_MEM_READ_ONLY);
 
+    /// Blocking write of `bytes` to the start of `buffer`.
+    void overwrite(const cl::Buffer& buffer, const void* data, uint64_t bytes);
     /// Blocking read of `bytes` from the start of `buffer`.
     void download(const cl::Buffer& buffer, void* data, uint64_t bytes);
 

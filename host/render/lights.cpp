@@ -14,7 +14,8 @@ double luminance(const Vec3& c) {
     return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
-/// Share of a Gaussian about an edge's middle that lies on the edge, with sigma as a fraction of it.
+/// Share of a Gaussian about an edge's middle that lies on the edge, with sigma as a fraction of
+/// it.
 double gaussian_share(double sigma) {
     return std::erf(0.5 / (sigma * std::sqrt(2.0)));
 }

@@ -27,7 +27,8 @@ struct PathSettings {
     std::string kernel_dir;
 };
 
-/// Pixels [first, first + count) of the crop, and a range of samples.
+/// Pixels [first, first + count) of the crop, or with filters of the list of pixels, and a range of
+/// samples.
 struct Work {
     uint32_t first_pixel = 0, pixel_count = 0;
     uint32_t first_sample = 0, sample_count = 0;

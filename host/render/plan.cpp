@@ -31,6 +31,10 @@ int count_shadow_lights(const Scene& scene) {
 
 }  // namespace
 
+bool has_hemisphere_light(const Scene& scene, int bounces) {
+    return bounces > 0 || scene.background != Vec3(0);
+}
+
 Plan make_plan(const Scene& scene, Method method, int bounces) {
     Plan plan;
     const std::vector<bool> used = used_materials(scene);
@@ -49,14 +53,16 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
     if (plan.normal_maps) plan.path_program.defines.push_back("WEDGE_NORMAL_MAPS=1");
     if (method == Method::aaf) {
         plan.shadow_lights = count_shadow_lights(scene);
-        plan.hemisphere = bounces > 0 || scene.background != Vec3(0);
+        plan.hemisphere = has_hemisphere_light(scene, bounces);
     }
     plan.signals = plan.shadow_lights + (plan.hemisphere ? 1 + plan.specular : 0);
     if (plan.signals > 0) {
         auto& defines = plan.path_program.defines;
         defines.push_back("WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights));
         if (plan.hemisphere) defines.push_back("WEDGE_FILTER_HEMISPHERE=1");
-        plan.filter_programs = {{"kernels/filter.cl", defines}, {"kernels/guard.cl", {}}};
+        plan.filter_programs = {{"kernels/bandwidth.cl", defines},
+                                {"kernels/filter.cl", defines},
+                                {"kernels/guard.cl", {}}};
     }
     return plan;
 }

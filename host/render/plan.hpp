@@ -18,8 +18,11 @@ struct Plan {
     bool hemisphere = false;   ///< indirect light and that of the background is filtered
     int signals = 0;  ///< that are filtered, for each surface of a pixel; 0: plain Monte Carlo
     device::ProgramRequest path_program;
-    std::vector<device::ProgramRequest> filter_programs;  ///< if signals > 0: filter, guard
+    std::vector<device::ProgramRequest> filter_programs;  ///< if signals > 0
 };
+
+/// Light that reaches surfaces otherwise than straight from a light.
+bool has_hemisphere_light(const Scene& scene, int bounces);
 
 Plan make_plan(const Scene& scene, Method method, int bounces);
 

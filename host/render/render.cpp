@@ -83,13 +83,15 @@ FilteredLight run_filtered(SamplingLoop& loop, SignalFilter& filter,
     // How many samples there will be is known only after the probe; until then progress guesses.
     if (loop.run("probe", 0, probes, 4 * probes * pixels, true)) {
         loop.add_pass("bandwidth", filter.measure_bandwidth());
-        uint32_t last = 0;
+        const std::vector<SampleEnds> ends = filter.read_sample_ends();
         uint64_t total = 0;
-        for (const SampleEnds& end : filter.read_sample_ends()) {
-            last = std::max(last, end.camera_rays);
-            total += end.camera_rays;
+        for (const SampleEnds& end : ends) total += std::max(end.paths, end.camera_rays);
+        for (const Stage& stage : cut_into_stages(ends, probes)) {
+            filter.write_pixel_list(stage.pixels);
+            if (!loop.run("adaptive", stage.first, stage.end, total, false,
+                          uint32_t(stage.pixels.size())))
+                break;
         }
-        if (last > probes) loop.run("adaptive", probes, last, total);
     }
     loop.add_pass("filter", filter.filter());
     return filter.read_light();

@@ -15,9 +15,10 @@ bool SamplingLoop::must_stop(bool at_pass_end) {
            watch_.total() >= *options_.time_limit_s;
 }
 
-bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t total,
-                       bool probing) {
-    Schedule schedule(tracer_.pixel_count(), first, end - first, options_.tile_pixels);
+bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing,
+                       std::optional<uint32_t> pixels) {
+    Schedule schedule(pixels.value_or(tracer_.pixel_count()), first, end - first,
+                      options_.tile_pixels);
     if (checkpoints_) done_ += checkpoints_->begin(schedule, first);
     PassStats pass{name, 0, 0};
     bool stopped = false;

@@ -1,6 +1,8 @@
 // Launch after launch, until all samples are there or somebody says stop.
 #pragma once
 
+#include <optional>
+
 #include "host/base/stopwatch.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/resume.hpp"
@@ -18,7 +20,9 @@ class SamplingLoop {
 
     /// Brings all pixels from sample `first` to `end`, as a pass of that name in the statistics.
     /// `total`: pixel samples of the whole render, for progress. False if it was stopped.
-    bool run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing = false);
+    /// `pixels`: of a list, if not all.
+    bool run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing = false,
+             std::optional<uint32_t> pixels = {});
 
     /// Adds the time of a pass that was run otherwise.
     void add_pass(const char* name, double device_s) {

@@ -1,7 +1,9 @@
 #include "host/render/signal_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "host/base/stopwatch.hpp"
 #include "host/device/program.hpp"
@@ -9,18 +11,21 @@
 namespace wedge::rendering {
 namespace {
 
-constexpr int kProbeSamples = 16;       // thesis, section 4.5; for shadows it takes 9
+// Thesis, section 4.5; for shadows alone it takes 9.
+constexpr int kProbeSamples = 16, kShadowProbeSamples = WEDGE_LIGHT_PROBES;
 constexpr float kAlphaDirect = 1;       // section 3.6
 constexpr float kAlphaIndirect = 0.3f;  // section 4.5
 constexpr float kGaussian = 3;          // k of eq. 3.13
 constexpr float kUniform = 4.5;       // flat lights have side lobes; the thesis takes mu = 3 for 2
 constexpr float kSamplesPerMu = 100;  // the cap
-// Camera rays for each path: they are cheaper the longer paths are.
-constexpr int kCameraRaysWithBounces = 4, kCameraRaysAlone = 2;
+// Camera rays of a pixel with an edge as high as the image is bright: they are cheaper the longer
+// paths are.
+constexpr int kCameraRaysWithBounces = 256, kCameraRaysAlone = 64;
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
-constexpr cl_uint kScaleArg = 8;  // of filter_x and filter_y
-constexpr cl_uint kLightArg = 4;  // of filter_combine
+constexpr cl_uint kScaleArg = 8;         // of filter_x and filter_y
+constexpr cl_uint kCombineScaleArg = 6;  // of filter_combine
+constexpr cl_uint kBrightnessArg = 12;   // of filter_bandwidth
 
 int mode_of(FilterMode mode) {
     switch (mode) {
@@ -49,6 +54,10 @@ std::vector<T> read(device::Device& device, const cl::Buffer& buffer, uint64_t c
 
 }  // namespace
 
+int probe_samples(const Scene& scene, int bounces) {
+    return has_hemisphere_light(scene, bounces) ? kProbeSamples : kShadowProbeSamples;
+}
+
 shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options) {
     shared::FilterSettings s{};
     s.mu = options.mu;
@@ -58,13 +67,13 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     s.k_uniform = kUniform;
     s.max_samples =
         options.samples_per_pixel.value_or(int(std::lround(kSamplesPerMu * std::max(1.0f, s.mu))));
-    s.probe_samples = std::min(kProbeSamples, s.max_samples);
+    const int bounces = options.bounces.value_or(scene.defaults.bounces);
+    s.probe_samples = std::min(probe_samples(scene, bounces), s.max_samples);
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
     s.least_samples = options.adaptive ? s.probe_samples : s.max_samples;
     s.mode = mode_of(options.filter);
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
-    const int bounces = options.bounces.value_or(scene.defaults.bounces);
     s.camera_rays_at_edges = bounces > 0 ? kCameraRaysWithBounces : kCameraRaysAlone;
     s.pixel_angle = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(scene.film.height);
     return s;
@@ -74,15 +83,15 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
     if (plan.signals == 0) return {};
     const uint64_t surfaces = pixels * WEDGE_SURFACES, entries = surfaces * uint64_t(plan.signals);
     return {
-        {"sample counts", pixels * sizeof(SampleEnds)},
+        {"sample counts", pixels * (sizeof(SampleEnds) + sizeof(cl_uint))},
         {"surfaces of pixels",
          surfaces * (sizeof(shared::SurfaceSum) + sizeof(shared::FilterSurface))},
         {"signals, sampled", entries * 2 * sizeof(shared::float4)},
         {"signals, filtered", entries * 2 * sizeof(cl_float8)},
-        {"distances", entries * (sizeof(shared::DistanceRange) + sizeof(cl_float2))},
+        {"distances", entries * (sizeof(shared::DistanceRange) + sizeof(shared::float4))},
         {"filter widths", entries * sizeof(float)},
         {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
-        {"light before and after filters", pixels * 3 * sizeof(shared::HalfLight)},
+        {"light before and after filters", pixels * (1 + WEDGE_SCALES) * sizeof(shared::HalfLight)},
         {"guard", pixels * (2 * sizeof(shared::FilterErrors) + sizeof(shared::GuardedPixel))},
     };
 }
@@ -100,8 +109,8 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
       film_(tracer.film()) {
     allocate(settings);
     compile(plan, kernel_dir, stats);
-    const cl::Buffer kept[] = {settings_,  surface_sums_, sums_,       distances_,
-                               reflected_, unfiltered_,   sample_ends_};
+    const cl::Buffer kept[] = {settings_,  surface_sums_, sums_,        distances_,
+                               reflected_, unfiltered_,   sample_ends_, pixel_list_};
     tracer.attach_signals(kept);
     stats.device_bytes = device.allocated_bytes();
 }
@@ -116,6 +125,9 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     settings_ = device_.upload_bytes(&settings, sizeof(settings), "filter settings");
     const auto probes = cl_uint(settings.probe_samples);
     sample_ends_ = upload(std::vector<SampleEnds>(pixels, {probes, probes}), "sample counts");
+    std::vector<uint32_t> all(pixels);
+    std::iota(all.begin(), all.end(), 0u);
+    pixel_list_ = upload(all, "list of pixels");
     surface_sums_ = upload(std::vector<shared::SurfaceSum>(surfaces), "surfaces of pixels");
     sums_ = upload(std::vector<shared::float4>(2 * entries), "signals");
     const shared::DistanceRange nothing{INFINITY, 0, 0, 0};
@@ -123,12 +135,12 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     reflected_ = upload(std::vector<shared::float4>(surfaces * lights_), "unshadowed light");
     unfiltered_ = upload(std::vector<shared::HalfLight>(pixels), "unfiltered light");
     surfaces_ = device_.allocate(surfaces * sizeof(shared::FilterSurface), "places of surfaces");
-    found_ = device_.allocate(entries * sizeof(cl_float2), "slopes and depths");
+    found_ = device_.allocate(entries * sizeof(shared::float4), "slopes and depths");
+    rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     sigmas_ = device_.allocate(entries * sizeof(float), "filter widths");
     means_ = device_.allocate(entries * sizeof(cl_float8), "means of signals");
     filtered_ = device_.allocate(entries * sizeof(cl_float8), "half-filtered signals");
-    for (cl::Buffer* light : {&full_, &half_width_})
-        *light = device_.allocate(pixels * sizeof(shared::HalfLight), "filtered light");
+    light_ = device_.allocate(WEDGE_SCALES * pixels * sizeof(shared::HalfLight), "filtered light");
     for (cl::Buffer* errors : {&errors_, &smoothed_})
         *errors = device_.allocate(pixels * sizeof(shared::FilterErrors), "errors of filters");
     guarded_ = device_.allocate(pixels * sizeof(shared::GuardedPixel), "guarded light");
@@ -137,17 +149,20 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
 void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats) {
     Stopwatch watch;
     const auto programs = device::build_programs(device_, plan.filter_programs, kernel_dir);
-    surfaces_kernel_ = programs[0].kernel("filter_surfaces");
-    distances_kernel_ = programs[0].kernel("filter_distances");
-    bandwidth_kernel_ = programs[0].kernel("filter_bandwidth");
-    means_kernel_ = programs[0].kernel("filter_means");
-    filter_x_ = programs[0].kernel("filter_x");
-    filter_y_ = programs[0].kernel("filter_y");
-    combine_ = programs[0].kernel("filter_combine");
-    guard_errors_ = programs[1].kernel("guard_errors");
-    smooth_x_ = programs[1].kernel("guard_smooth_x");
-    smooth_y_ = programs[1].kernel("guard_smooth_y");
-    choose_ = programs[1].kernel("guard_choose");
+    const device::Program &bandwidth = programs[0], &filters = programs[1], &guard = programs[2];
+    surfaces_kernel_ = bandwidth.kernel("filter_surfaces");
+    distances_kernel_ = bandwidth.kernel("filter_distances");
+    brightness_kernel_ = bandwidth.kernel("filter_brightness");
+    bandwidth_kernel_ = bandwidth.kernel("filter_bandwidth");
+    merge_kernel_ = bandwidth.kernel("filter_merge_halves");
+    means_kernel_ = filters.kernel("filter_means");
+    filter_x_ = filters.kernel("filter_x");
+    filter_y_ = filters.kernel("filter_y");
+    combine_ = filters.kernel("filter_combine");
+    guard_errors_ = guard.kernel("guard_errors");
+    smooth_x_ = guard.kernel("guard_smooth_x");
+    smooth_y_ = guard.kernel("guard_smooth_y");
+    choose_ = guard.kernel("guard_choose");
     for (const device::Program& program : programs)
         (program.from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
     // Some drivers compile at the first launch: empty ones keep that out of the rendering time.
@@ -162,19 +177,21 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     const auto width = cl_int(film_width), height = cl_int(film_height);
     const auto pixels = cl_uint(film_width * film_height), surfaces = pixels * WEDGE_SURFACES;
     set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, surfaces_, surfaces);
-    set_kernel_args(distances_kernel_, distances_, found_, surfaces * signals_);
+    set_kernel_args(distances_kernel_, distances_, sums_, found_, surfaces * signals_);
+    set_kernel_args(brightness_kernel_, film_, rows_, width, height);
     set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, surfaces_,
-                    found_, sigmas_, sample_ends_, sums_, unfiltered_, width, height);
+                    found_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height, 0.0f);
+    set_kernel_args(merge_kernel_, settings_, sample_ends_, sums_, unfiltered_, pixels);
     set_kernel_args(means_kernel_, unfiltered_, sums_, means_, surfaces * signals_);
     set_kernel_args(filter_x_, settings_, light_list_, surfaces_, sigmas_, means_, filtered_, width,
                     height);
     set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, means_, width,
                     height);
-    set_kernel_args(combine_, film_, surface_sums_, reflected_, means_, full_, pixels);
-    set_kernel_args(guard_errors_, unfiltered_, full_, half_width_, errors_, pixels);
+    set_kernel_args(combine_, film_, surface_sums_, reflected_, means_, light_, pixels, cl_uint(0));
+    set_kernel_args(guard_errors_, light_, errors_, pixels);
     set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
     set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
-    set_kernel_args(choose_, settings_, unfiltered_, full_, half_width_, errors_, guarded_, pixels);
+    set_kernel_args(choose_, settings_, unfiltered_, light_, errors_, guarded_, pixels);
 }
 
 double SignalFilter::run(std::span<const Launch> launches) {
@@ -188,32 +205,45 @@ double SignalFilter::run(std::span<const Launch> launches) {
 
 double SignalFilter::measure_bandwidth() {
     const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
-    const Launch launches[] = {{surfaces_kernel_, surfaces},
+    const Launch measured[] = {{surfaces_kernel_, surfaces},
                                {distances_kernel_, surfaces * signals_},
-                               {bandwidth_kernel_, pixels}};
-    return run(launches);
+                               {brightness_kernel_, height_}};
+    const Launch decided[] = {{bandwidth_kernel_, pixels}, {merge_kernel_, pixels}};
+    const double seconds = run(measured);
+    bandwidth_kernel_.setArg(kBrightnessArg, mean_brightness());
+    return seconds + run(decided);
 }
 
-double SignalFilter::filter_with_width(float scale, const cl::Buffer& light) {
+float SignalFilter::mean_brightness() {
+    double sum = 0;
+    for (float row : read<float>(device_, rows_, height_)) sum += double(row);
+    return float(sum / double(pixel_count()));
+}
+
+void SignalFilter::write_pixel_list(std::span<const uint32_t> pixels) {
+    device_.overwrite(pixel_list_, pixels.data(), pixels.size_bytes());
+}
+
+double SignalFilter::filter_with_scale(uint32_t index) {
+    constexpr float widths[] = WEDGE_SCALE_WIDTHS;
     const uint64_t pixels = pixel_count();
-    filter_x_.setArg(kScaleArg, scale);
-    filter_y_.setArg(kScaleArg, scale);
-    combine_.setArg(kLightArg, light);
-    const Launch launches[] = {{means_kernel_, pixels * WEDGE_SURFACES * signals_},
-                               {filter_x_, pixels},
-                               {filter_y_, pixels},
-                               {combine_, pixels}};
-    return run(launches);
+    filter_x_.setArg(kScaleArg, widths[index]);
+    filter_y_.setArg(kScaleArg, widths[index]);
+    combine_.setArg(kCombineScaleArg, cl_uint(index));
+    const Launch means{means_kernel_, pixels * WEDGE_SURFACES * signals_};
+    const Launch combine{combine_, pixels};
+    if (widths[index] == 0) return run(std::array{means, combine});
+    return run(std::array{means, Launch{filter_x_, pixels}, Launch{filter_y_, pixels}, combine});
 }
 
 double SignalFilter::filter() {
     const uint64_t pixels = pixel_count();
     // Where the samples met the scene is better known now than after the probe.
-    const Launch places[] = {{surfaces_kernel_, pixels * WEDGE_SURFACES}};
+    double seconds = run(std::array{Launch{surfaces_kernel_, pixels * WEDGE_SURFACES}});
+    for (uint32_t scale = 0; scale < WEDGE_SCALES; ++scale) seconds += filter_with_scale(scale);
     const Launch guard[] = {
         {guard_errors_, pixels}, {smooth_x_, pixels}, {smooth_y_, pixels}, {choose_, pixels}};
-    return run(places) + filter_with_width(1, full_) + filter_with_width(0.5f, half_width_) +
-           run(guard);
+    return seconds + run(guard);
 }
 
 std::vector<SampleEnds> SignalFilter::read_sample_ends() {

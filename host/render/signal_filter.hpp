@@ -4,9 +4,13 @@
 #include <functional>
 
 #include "host/render/path_tracer.hpp"
+#include "host/render/stages.hpp"
 #include "wedge/shared/filter.h"
 
 namespace wedge::rendering {
+
+/// Samples that every pixel starts with.
+int probe_samples(const Scene& scene, int bounces);
 
 /// Settings of the thesis (docs/method.md), one set for all scenes.
 shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options);
@@ -32,11 +36,6 @@ struct FilterBuffer {
 };
 std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels);
 
-/// Samples a pixel is to be brought to.
-struct SampleEnds {
-    uint32_t paths, camera_rays;
-};
-
 class SignalFilter {
   public:
     /// Allocates, compiles, and attaches itself to `tracer`.
@@ -52,6 +51,8 @@ class SignalFilter {
     double filter();
 
     std::vector<SampleEnds> read_sample_ends();
+    /// The pixels that the path tracer counts from now on; at most all.
+    void write_pixel_list(std::span<const uint32_t> pixels);
     /// After filter().
     FilteredLight read_light();
 
@@ -63,7 +64,8 @@ class SignalFilter {
     };
 
     void allocate(const shared::FilterSettings& settings);
-    double filter_with_width(float scale, const cl::Buffer& light);
+    float mean_brightness();
+    double filter_with_scale(uint32_t index);
     double run(std::span<const Launch> launches);
     void compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats);
     void set_args(uint32_t film_width, uint32_t film_height);
@@ -72,11 +74,12 @@ class SignalFilter {
     device::Device& device_;
     uint32_t width_, height_, lights_, signals_;
     cl::Buffer light_list_, params_, film_;
-    cl::Buffer settings_, sample_ends_, surface_sums_, sums_, distances_, reflected_, unfiltered_;
-    cl::Buffer surfaces_, found_, sigmas_, means_, filtered_, full_, half_width_, errors_,
-        smoothed_, guarded_;
-    cl::Kernel surfaces_kernel_, distances_kernel_, bandwidth_kernel_, means_kernel_, filter_x_,
-        filter_y_, combine_, guard_errors_, smooth_x_, smooth_y_, choose_;
+    cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, sums_, distances_,
+        reflected_, unfiltered_;
+    cl::Buffer surfaces_, found_, sigmas_, means_, filtered_, light_, errors_, smoothed_, guarded_;
+    cl::Kernel surfaces_kernel_, distances_kernel_, brightness_kernel_, bandwidth_kernel_,
+        merge_kernel_, means_kernel_, filter_x_, filter_y_, combine_, guard_errors_, smooth_x_,
+        smooth_y_, choose_;
 };
 
 }  // namespace wedge::rendering

@@ -1,5 +1,6 @@
 /* The sampling routines of kernels/lib, laid open for the tests in tests/render. */
 #include "lib/bandwidth.clh"
+#include "lib/filter_weight.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
 
@@ -84,4 +85,17 @@ __kernel void eval_shadow_bandwidth(__global const float4* in, float4 settings, 
     out[id] = (float2)(
         shadow_filter_sigma(p.x, p.z, p.w, settings.x, settings.y, settings.z),
         shadow_sample_count(p.x, p.y, p.z, p.w, settings.x, settings.y));
+}
+
+/* in: position, width of the filter; normal. Weights of each for the first. */
+__kernel void eval_filter_weights(__global const float4* positions, __global const float4* normals,
+                                  float4 along, float pixel, uint count, __global float4* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    FilterSurface p, q;
+    p.position = (float4)(positions[0].xyz, pixel);
+    p.normal = (float4)(normals[0].xyz, pixel);
+    q.position = (float4)(positions[id].xyz, pixel);
+    q.normal = (float4)(normals[id].xyz, pixel);
+    out[id] = (float4)(filter_weight(p, positions[0].w, q, positions[id].w, along.xyz));
 }

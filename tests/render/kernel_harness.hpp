@@ -40,6 +40,10 @@ class SamplingKernels {
     std::vector<float2> indirect_bandwidth(const std::vector<float4>& in, float4 settings);
     /// Band limit of lobes of exponents in[i].x and their share of the hemisphere.
     std::vector<float2> lobe_bands(const std::vector<float4>& in, int model);
+    /// kernels/lib/filter_weight.clh; w of `positions`: widths. Weights of all for the first.
+    std::vector<float> filter_weights(const std::vector<float4>& positions,
+                                      const std::vector<float4>& normals, float4 along,
+                                      float pixel);
 
   private:
     template <typename T, typename... Args>

@@ -45,7 +45,8 @@ TEST_CASE("sobol_prefixes_of_a_pixel_are_nets") {
 TEST_CASE("doubling_stretches_are_nets") {
     SamplingKernels kernels;
     const auto stretch = [&](uint32_t pixel, uint32_t first, uint32_t count) {
-        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, WEDGE_DOUBLING, pixel, first, 4, count);
+        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, WEDGE_DOUBLING_FROM(3), pixel, first, 4,
+                              count);
     };
     for (int m : {3, 4, 5, 7}) {
         CHECK(is_net(stretch(77, 1u << m, 1u << m), m));

@@ -17,7 +17,10 @@ WEDGE_SHARED_BEGIN
 
 /* Most lights whose shadows are filtered; the others are left to Monte Carlo. */
 #define WEDGE_MAX_SHADOW_LIGHTS 4
-#define WEDGE_SURFACES 2
+#define WEDGE_SURFACES 3
+
+/* Samples, the first of a pixel, whose shadow rays look for the nearest occluder. */
+#define WEDGE_LIGHT_PROBES 8
 
 /* Sums over the samples of a pixel that met the same surface. */
 typedef struct SurfaceSum {
@@ -43,18 +46,21 @@ WEDGE_ASSERT_SIZE(DistanceRange, 16);
    over samples, or after it. */
 typedef struct HalfLight {
     float4 direct[2];   /* rgb, w: samples (sums only) */
-    float4 indirect[2]; /* rgb */
+    float4 indirect[2]; /* rgb, w: luminance of light that is not filtered (sums only) */
 } HalfLight;
 WEDGE_ASSERT_SIZE(HalfLight, 64);
 
-/* Estimated mean square errors of the ways there are to filter a pixel. */
-#define WEDGE_FILTER_FULL 0
-#define WEDGE_FILTER_HALF 1 /* half the width */
-#define WEDGE_FILTER_NONE 2
+/* Filters that the guard chooses from, by the share of the width that theory asks for; the first
+   leaves each pixel to its own samples. Light is kept at scale * pixels + pixel. */
+#define WEDGE_SCALES 3
+#define WEDGE_SCALE_WIDTHS \
+    { 0.0f, 0.5f, 1.0f }
+
+/* Estimated mean square errors, by scale, and their squares. */
 typedef struct FilterErrors {
-    float4 direct, indirect; /* x, y, z: by the three, w: square of x */
+    float4 direct, direct_squared, indirect, indirect_squared;
 } FilterErrors;
-WEDGE_ASSERT_SIZE(FilterErrors, 32);
+WEDGE_ASSERT_SIZE(FilterErrors, 64);
 
 /* What the guard made of a pixel. */
 typedef struct GuardedPixel {
@@ -81,7 +87,7 @@ typedef struct FilterSettings {
     float pixel_angle; /* world length of a pixel face-on, at distance 1 */
     int probe_samples, max_samples;
     int max_radius_px;        /* of a filter */
-    int camera_rays_at_edges; /* for each sample */
+    int camera_rays_at_edges; /* whose contrast is the mean brightness; mu = 1 */
     int least_samples;        /* that every pixel gets, whatever its frequencies */
     int mode;                 /* WEDGE_FILTER_MODE_* */
 } FilterSettings;

@@ -18,7 +18,7 @@ WEDGE_ASSERT_SIZE(CameraRays, 64);
 #define WEDGE_SAMPLER_SOBOL 1
 #define WEDGE_SAMPLER_STRATIFIED 2
 
-#define WEDGE_DOUBLING (-1) /* kernels/lib/random.clh */
+#define WEDGE_DOUBLING_FROM(k) (-(k)) /* k > 0; kernels/lib/random.clh */
 
 typedef struct FrameParams {
     CameraRays camera;
@@ -28,7 +28,7 @@ typedef struct FrameParams {
     uint seed;
     int sampler;
     int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence, or
-                         WEDGE_DOUBLING */
+                         WEDGE_DOUBLING_FROM(k) */
     int bounces;
     int search_lights; /* 1: there is light that sampling finds badly or not at all: background,
                           meshes */

@@ -67,8 +67,8 @@ typedef struct Light {
     int emission_texture; /* -1: none */
     uint primitive;       /* of a triangle light, for its texture coordinates */
     int unused;
-    float4 profile; /* of a rectangle. x, y: share of a Gaussian that lies between the edges, along u
-                       and v; z: mean emission over the rectangle, as a share of its centre's */
+    float4 profile; /* of a rectangle. x, y: share of a Gaussian that lies between the edges, along
+                       u and v; z: mean emission over the rectangle, as a share of its centre's */
 } Light;
 WEDGE_ASSERT_SIZE(Light, 112);
 

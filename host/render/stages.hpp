@@ -1,0 +1,26 @@
+// Adaptive samples as work that is dense: pixels that need many samples do not wait for those that
+// need few.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace wedge::rendering {
+
+/// Samples a pixel is to be brought to.
+struct SampleEnds {
+    uint32_t paths, camera_rays;
+};
+
+/// Samples [first, end) of the pixels that get so far.
+struct Stage {
+    uint32_t first = 0, end = 0;
+    std::vector<uint32_t> pixels;  ///< those that trace whole paths come first
+};
+
+/// From `done` samples, which all pixels have, to the ends; a stage doubles the samples, as the
+/// sampler's stretches do.
+std::vector<Stage> cut_into_stages(std::span<const SampleEnds> ends, uint32_t done);
+
+}  // namespace wedge::rendering
