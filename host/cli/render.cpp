@@ -148,7 +148,9 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--target-metric", a.target_metric,
                        "What --target-error is: relmse or rmse; default: relmse");
     command.add_option("--seed", a.seed, "Seed of all random numbers, 0 to 2^64 - 1; default: 0");
-    command.add_option("--method", a.method, "mc or aaf; default: mc");
+    command.add_option("--method", a.method,
+                       "mc or aaf; default: aaf, but mc with --time, --target-error, --resume, "
+                       "--sample-offset and --pixel");
     command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 1");
     command.add_option("--filter", a.filter,
                        "aaf: guarded, plain (as in the papers) or none; default: guarded");

@@ -75,6 +75,15 @@ Method parse_method(const std::string& name) {
     refuse("--method " + name + ": no such method; known: mc, aaf");
 }
 
+/// The one that was asked for; else filtering, but for what only plain Monte Carlo can do, or does
+/// as is meant: filtering uses no more time than its samples take.
+Method choose_method(const RenderArguments& a) {
+    if (!a.method.empty()) return parse_method(a.method);
+    const bool only_mc = a.time_s || a.target_error || !a.resume_file.empty() ||
+                         a.sample_offset > 0 || !a.pixel.empty();
+    return only_mc ? Method::mc : Method::aaf;
+}
+
 BvhOptions parse_bvh(const RenderArguments& a) {
     const auto layout = kBvhLayouts.find(a.bvh);
     if (layout == kBvhLayouts.end())
@@ -143,7 +152,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.sample_offset = arguments.sample_offset;
     job.options.sampler = parse_sampler(arguments.sampler);
     job.options.bvh = parse_bvh(arguments);
-    job.options.method = parse_method(arguments.method);
+    job.options.method = choose_method(arguments);
     if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));
     job.options.mu = arguments.mu;
     job.options.filter = parse_filter(arguments.filter);

@@ -19,7 +19,7 @@ struct RenderArguments {
     std::vector<std::string> layers;
     std::vector<std::string> asset_paths;
     std::string size, crop, pixel;
-    std::string sampler = "sobol", method = "mc", filter = "guarded", integrator = "path";
+    std::string sampler = "sobol", method, filter = "guarded", integrator = "path";
     bool uniform = false;
     float mu = 1;
     std::string bvh = "auto", bvh_quality = "medium";

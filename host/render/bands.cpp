@@ -18,7 +18,7 @@ void check_options(const Rect& crop, const RenderOptions& options) {
                         "in bands, {}; render it with --crop in parts, or a smaller one",
                         crop.width, crop.height, what));
     };
-    if (options.method != Method::mc) refuse("which only the method mc can");
+    if (options.method != Method::mc) refuse("which only --method mc can");
     if (!options.resume_file.empty()) refuse("which cannot be resumed");
     if (options.time_limit_s) refuse("which cannot end at a time");
 }

@@ -73,12 +73,27 @@ TEST_CASE("model_renders_without_a_scene_file") {
     CHECK(bench.has("room.png"));
 }
 
+TEST_CASE("filters_are_used_unless_something_else_is_asked_for") {
+    const Workbench bench;
+    write_room(bench);
+    const auto method_of = [&](const std::vector<std::string>& more) {
+        render_room(bench, more);
+        return read_image(bench.folder() / "out.exr").metadata.at("wedge:method");
+    };
+    CHECK(method_of({}) == "aaf");
+    CHECK(method_of({"--method", "mc"}) == "mc");
+    CHECK(method_of({"--time", "0.01"}) == "mc");
+    CHECK(method_of({"--sample-offset", "8"}) == "mc");
+    CHECK(method_of({"--resume", "room.state"}) == "mc");
+}
+
 TEST_CASE("crop_equals_the_full_render_inside_and_is_zero_outside") {
     const Workbench bench;
     write_room(bench);
-    render_room(bench);
+    // Filters do not look over the edge of a crop, so this is for plain Monte Carlo.
+    render_room(bench, {"--method", "mc"});
     const Image full = read_image(bench.folder() / "out.exr");
-    render_room(bench, {"--crop", "5,7,11,9"});
+    render_room(bench, {"--method", "mc", "--crop", "5,7,11,9"});
     const Image crop = read_image(bench.folder() / "out.exr");
 
     REQUIRE(crop.width == full.width);
