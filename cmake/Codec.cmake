@@ -2,7 +2,6 @@
 # it by name when the first image is read or written (host/image/codec.hpp), by way of the program's run
 # path: here the build folder, after installation WEDGE_CODEC_DIR. Its name has the version, so that one of
 # another version is missing before a render, not after it.
-set(WEDGE_CODEC_DIR ${CMAKE_INSTALL_LIBDIR}/wedge)
 file(GLOB codec_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/codec/*.cpp)
 add_library(wedge_codec MODULE ${codec_sources})
 set(WEDGE_CODEC_NAME libwedge_codec-${PROJECT_VERSION})
