@@ -7,8 +7,11 @@ namespace wedge::rendering {
 namespace {
 
 constexpr double kRelativeOffset = 0.01;  // of relMSE, docs/metrics.md
-// Independent samples have 1; smooth integrands with stratified samples up to 3.
-constexpr double kSlowest = 1, kFastest = 3;
+// Independent samples have 1. Of what is seen at few samples not more than 2 is believed, because
+// smooth dimensions get exhausted first.
+constexpr double kSlowest = 1, kFastest = 2;
+// Of stratified samples, before it is known: the median over the stability suite, 4 to 64 samples.
+constexpr double kTypical = 1.25;
 
 double weight_of(double value) {
     const double scale = std::max(value, 0.0) + kRelativeOffset;
@@ -56,7 +59,7 @@ void ErrorEstimate::add(uint32_t samples, std::span<const shared::FilmPixel> fil
 
 double ErrorEstimate::rate(double Change::*metric) const {
     const std::size_t n = changes_.size();
-    if (n < 3) return kSlowest;
+    if (n < 3) return sampler_ == Sampler::hash ? kSlowest : kTypical;
     const std::size_t apart = n < 4 ? 1 : 2;
     const double last = two_from(n - 2, metric), before = two_from(n - 2 - apart, metric);
     if (!(before > 0) || !(last > 0)) return kSlowest;

@@ -21,6 +21,8 @@ namespace wedge::rendering {
 /// within pixels would not do: stratified samples are better than these say.
 class ErrorEstimate {
   public:
+    explicit ErrorEstimate(Sampler sampler) : sampler_(sampler) {}
+
     /// The sums of all pixels, with `samples` in each: powers of two, each twice the last.
     void add(uint32_t samples, std::span<const shared::FilmPixel> film);
 
@@ -39,6 +41,7 @@ class ErrorEstimate {
     double rate(double Change::*metric) const;
     double level(double Change::*metric) const;
 
+    Sampler sampler_;
     uint32_t samples_ = 0;
     std::vector<float> mean_;  ///< R, G, B of all pixels at the last add()
     Change sampled_;           ///< from the variance of samples, until there is a difference

@@ -25,6 +25,7 @@ class ProgressiveRun {
           samples_(samples),
           loop_(loop),
           tracer_(tracer),
+          estimate_(options.sampler),
           // With a known end the last five images are enough.
           next_(options.target_error || options.time_limit_s
                     ? kSampleBatch
