@@ -65,5 +65,29 @@ TEST_CASE("a_lamp_of_triangles_lights_like_a_rectangle") {
         CHECK(channel_mean(a, channel) == doctest::Approx(channel_mean(b, channel)).epsilon(0.005));
 }
 
+TEST_CASE("the_back_of_a_lamp_stays_dark") {
+    // It reflects, but nothing else shines. Coordinates and tilts that round.
+    for (const Vec3& v : {Vec3(0, 0, 0.38f), Vec3(0, 0.1f, 0.37f), Vec3(0.05f, -0.2f, 0.3f)})
+        for (float scale : {1e-3f, 1.0f, 1e4f}) {
+            const Vec3 corner = scale * Vec3(0.23f, 1.58f, -0.22f),
+                       u = scale * Vec3(0.47f, 0.01f, 0);
+            Material lamp = shining();
+            lamp.diffuse = Vec3(0.78f);
+            Scene scene = make_scene({make_quad(corner, u, scale * v, 0)}, {lamp});
+            const Vec3 middle = corner + 0.5f * (u + scale * v);
+            const Vec3 front = glm::normalize(glm::cross(u, v));
+            scene.camera = {middle - scale * (2.0f * front + Vec3(0.3f, 0, 0.1f)), middle,
+                            Vec3(0, 0.3f, 1), 0.3f};
+            scene.film = {32, 32};
+            for (Method method : {Method::mc, Method::aaf}) {
+                RenderOptions options = quick(32, 1);
+                options.method = method;
+                const Image image = render(scene, options).image;
+                CHECK(channel_mean(image, "albedo.R") > 0.1);  // it is in view
+                CHECK(channel_mean(image, "R") == 0);
+            }
+        }
+}
+
 }  // namespace
 }  // namespace wedge::test
