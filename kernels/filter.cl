@@ -9,11 +9,13 @@
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
+/* Surfaces that are not there have no means, and nobody asks for them. */
 __kernel void filter_means(__global const HalfLight* restrict unfiltered,
+                           __global const FilterSurface* restrict surfaces,
                            __global const float4* restrict sums, __global float8* restrict means,
                            uint count) {
     const uint id = get_global_id(0);
-    if (id >= count) return;
+    if (id >= count || !(surfaces[id / WEDGE_SIGNALS].position.w > 0.0f)) return;
     __global const HalfLight* pixel = unfiltered + id / (WEDGE_SURFACES * WEDGE_SIGNALS);
     const float first = pixel->direct[0].w, second = pixel->direct[1].w;
     const float4 a = first > 0.0f ? sums[2 * id] / first : (float4)(0.0f);
@@ -21,32 +23,46 @@ __kernel void filter_means(__global const HalfLight* restrict unfiltered,
     means[id] = (float8)(a, b);
 }
 
-/* Sum over the pixels first, first + stride, ... of one row or column, normalised. */
-inline float8 filter_line(__global const FilterSurface* surfaces, __global const float* sigmas,
-                          __global const float8* means, FilterSurface p, int id, int signal,
-                          float3 along, float scale, int pixel, int stride, int before,
-                          int after, int max_radius) {
-    const float sigma = sigmas[id * WEDGE_SIGNALS + signal] * scale;
-    float8 sum = means[id * WEDGE_SIGNALS + signal];
-    if (!(sigma > 0.0f)) return sum;
-    float weights = 1.0f;
-    const int radius = min((int)ceil(3.0f * sigma / p.position.w), max_radius);
-    for (int i = -min(radius, before); i <= min(radius, after); ++i) {
-        if (i == 0) continue;
-        const int q = (pixel + i * stride) * WEDGE_SURFACES;
-        for (int k = q; k < q + WEDGE_SURFACES; ++k) {
-            const float other = sigmas[k * WEDGE_SIGNALS + signal] * scale;
-            if (!(other > 0.0f)) continue;
-            const float w = filter_weight(p, sigma, surfaces[k], other, along);
-            sum += w * means[k * WEDGE_SIGNALS + signal];
-            weights += w;
-        }
-    }
-    return sum / weights;
-}
-
 inline float3 filter_axis(__global const Light* lights, int signal) {
     return signal < WEDGE_SHADOW_LIGHTS ? lights[signal].normal.xyz : (float3)(0.0f);
+}
+
+/* The pixels first, first + stride, ... of one row or column that a filter may reach from the pixel `first`. */
+typedef struct {
+    int pixel, stride, before, after;
+} Line;
+
+/* Sums over a line, normalised, of all signals of surface `id`: they share the geometry. */
+inline void filter_line(__constant FilterSettings* settings, __global const Light* lights,
+                        __global const FilterSurface* surfaces, __global const float* sigmas,
+                        __global const float8* means, __global float8* filtered, Line line, int id,
+                        float scale) {
+    const FilterSurface p = surfaces[id];
+    float sigma[WEDGE_SIGNALS], weights[WEDGE_SIGNALS], widest = 0.0f;
+    float8 sums[WEDGE_SIGNALS];
+    for (int s = 0; s < WEDGE_SIGNALS; ++s) {
+        sigma[s] = sigmas[id * WEDGE_SIGNALS + s] * scale;
+        sums[s] = means[id * WEDGE_SIGNALS + s];
+        weights[s] = 1.0f;
+        widest = fmax(widest, sigma[s]);
+    }
+    const int radius = min((int)ceil(3.0f * widest / p.position.w), settings->max_radius_px);
+    for (int i = -min(radius, line.before); i <= min(radius, line.after); ++i) {
+        const int first = (line.pixel + i * line.stride) * WEDGE_SURFACES;
+        for (int q = first; i != 0 && q < first + WEDGE_SURFACES; ++q) {
+            const FilterSurface other = surfaces[q];
+            if (!(other.position.w > 0.0f) || !is_same_surface(p, other)) continue;
+            const float3 d = other.position.xyz - p.position.xyz;
+            for (int s = 0; s < WEDGE_SIGNALS; ++s) {
+                const float narrow = fmin(sigma[s], sigmas[q * WEDGE_SIGNALS + s] * scale);
+                if (!(narrow > 0.0f)) continue;
+                const float w = distance_weight(d, narrow, filter_axis(lights, s));
+                sums[s] += w * means[q * WEDGE_SIGNALS + s];
+                weights[s] += w;
+            }
+        }
+    }
+    for (int s = 0; s < WEDGE_SIGNALS; ++s) filtered[id * WEDGE_SIGNALS + s] = sums[s] / weights[s];
 }
 
 #define FILTER_PARAMS                                                                              \
@@ -59,26 +75,20 @@ __kernel void filter_x(FILTER_PARAMS) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const int x = pixel % width;
-    for (int id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id) {
-        const FilterSurface p = surfaces[id];
-        for (int signal = 0; signal < WEDGE_SIGNALS; ++signal)
-            filtered[id * WEDGE_SIGNALS + signal] =
-                filter_line(surfaces, sigmas, means, p, id, signal, filter_axis(lights, signal),
-                            scale, pixel, 1, x, width - 1 - x, settings->max_radius_px);
-    }
+    const Line line = {pixel, 1, x, width - 1 - x};
+    for (int id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id)
+        if (surfaces[id].position.w > 0.0f)
+            filter_line(settings, lights, surfaces, sigmas, means, filtered, line, id, scale);
 }
 
 __kernel void filter_y(FILTER_PARAMS) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const int y = pixel / width;
-    for (int id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id) {
-        const FilterSurface p = surfaces[id];
-        for (int signal = 0; signal < WEDGE_SIGNALS; ++signal)
-            filtered[id * WEDGE_SIGNALS + signal] =
-                filter_line(surfaces, sigmas, means, p, id, signal, filter_axis(lights, signal),
-                            scale, pixel, width, y, height - 1 - y, settings->max_radius_px);
-    }
+    const Line line = {pixel, width, y, height - 1 - y};
+    for (int id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id)
+        if (surfaces[id].position.w > 0.0f)
+            filter_line(settings, lights, surfaces, sigmas, means, filtered, line, id, scale);
 }
 
 /* What the surfaces of a pixel make of filtered signals. */

@@ -182,7 +182,7 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, surfaces_,
                     found_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height, 0.0f);
     set_kernel_args(merge_kernel_, settings_, sample_ends_, sums_, unfiltered_, pixels);
-    set_kernel_args(means_kernel_, unfiltered_, sums_, means_, surfaces * signals_);
+    set_kernel_args(means_kernel_, unfiltered_, surfaces_, sums_, means_, surfaces * signals_);
     set_kernel_args(filter_x_, settings_, light_list_, surfaces_, sigmas_, means_, filtered_, width,
                     height);
     set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, means_, width,
