@@ -1,9 +1,11 @@
 # What `wedge bench converge` measures with: a part on top of the library, so that tests can link it.
 if(WEDGE_WITH_IMAGE)
-    file(GLOB converge_sources CONFIGURE_DEPENDS bench/converge/*.cpp bench/baselines/*.cpp bench/stability/*.cpp)
+    file(GLOB converge_sources CONFIGURE_DEPENDS bench/converge/*.cpp bench/baselines/*.cpp
+        bench/peers/*.cpp bench/stability/*.cpp)
     add_library(wedge_converge STATIC ${converge_sources})
     target_link_libraries(wedge_converge PUBLIC wedge wedge_options wedge_dep_glm wedge_dep_fmt
         wedge_dep_json wedge_dep_opencl_hpp)
+    target_compile_definitions(wedge_converge PRIVATE WEDGE_PEERS_DIR="${PROJECT_SOURCE_DIR}/bench/peers")
     set(commit_header ${PROJECT_BINARY_DIR}/generated/wedge_commit.hpp)
     add_custom_target(wedge_commit BYPRODUCTS ${commit_header}
         COMMAND ${CMAKE_COMMAND} -DOUT=${commit_header} -DROOT=${PROJECT_SOURCE_DIR}
@@ -17,6 +19,7 @@ file(GLOB cli_sources CONFIGURE_DEPENDS host/cli/*.cpp bench/*.cpp)
 if(NOT WEDGE_WITH_IMAGE)
     list(REMOVE_ITEM cli_sources ${PROJECT_SOURCE_DIR}/host/cli/compare.cpp
         ${PROJECT_SOURCE_DIR}/host/cli/bench_converge.cpp
+        ${PROJECT_SOURCE_DIR}/host/cli/bench_peers.cpp
         ${PROJECT_SOURCE_DIR}/host/cli/bench_stability.cpp)
 endif()
 add_executable(wedge_program ${cli_sources})

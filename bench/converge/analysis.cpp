@@ -162,7 +162,7 @@ SceneAnalysis analyse(const Config& config, const SceneRuns& scene,
     for (Curve& curve : curves) {
         for (Rung& rung : curve.rungs) split_errors(scene.reference, rung);
         measure_blocks(scene.reference, curves[analysis.yardstick], curve);
-        if (curve.method->biased)
+        if (curve.method->biased || curve.method->peer_script)
             curve.bias_map = bias_map(scene.reference, curve.rungs.back());
         else
             curve.z_test = z_test(scene.reference, curve);
@@ -179,6 +179,14 @@ SceneAnalysis analyse(const Config& config, const SceneRuns& scene,
                 scene.name, curve.method->name, curve.z_test->largest_z, curve.z_test->p));
     }
     analysis.comparisons = compare(curves, analysis.yardstick);
+    for (const PeerReference& peer : scene.peer_references) {
+        const Agreement a = agreement_of(scene.reference, peer, curves);
+        if (a.test.p < 1e-3)
+            analysis.warnings.push_back(fmt::format(
+                "{}: {} and Wedge differ by more than noise (largest |z| {:.1f}, p = {:.1g})",
+                scene.name, a.version, a.test.largest_z, a.test.p));
+        analysis.agreements.push_back(a);
+    }
     check_reference(analysis);
     return analysis;
 }

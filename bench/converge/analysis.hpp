@@ -89,6 +89,25 @@ struct Comparison {
     std::vector<Ratio> error_at_equal_time, time_at_equal_error, rays_at_equal_error;
 };
 
+/// A peer's error by two measures; medians over seeds.
+struct OwnError {
+    const Method* method = nullptr;
+    Budget budget;
+    double to_reference = 0, to_own = 0;  ///< RMSE: to Wedge's reference, to the peer's
+};
+
+/// Wedge's reference beside that of another renderer.
+struct Agreement {
+    const Method* method = nullptr;
+    std::string version;
+    int spp = 0;
+    double rmse = 0;
+    double rmse_of_noise = 0;              ///< what the noise of both would make it
+    double ratio_of_means[3] = {0, 0, 0};  ///< R, G, B: Wedge over peer
+    ZTest test;
+    std::vector<OwnError> own_errors;
+};
+
 struct SceneAnalysis {
     const SceneRuns* scene = nullptr;
     double reference_rmse = 0;  ///< estimated
@@ -96,6 +115,7 @@ struct SceneAnalysis {
     std::vector<Curve> curves;
     std::size_t yardstick = 0;  ///< index into curves
     std::vector<Comparison> comparisons;
+    std::vector<Agreement> agreements;
     std::vector<std::string> warnings;
 };
 
@@ -131,11 +151,16 @@ SceneAnalysis analyse(const Config& config, const SceneRuns& scene,
 /// Throws Error(internal) where a method did not run with the same settings in every scene.
 Analysis summarise(std::vector<SceneAnalysis> scenes);
 
+/// (other - reference) / (reference + 0.01) of the mean of R, G, B; one channel, "B".
+Image relative_difference(const Reference& reference, const Image& other);
+
 // The parts of `analyse`, each in its file.
 void measure_blocks(const Reference& reference, const Curve& yardstick, Curve& curve);
 void split_errors(const Reference& reference, Rung& rung);
 ZTest z_test(const Reference& reference, const Curve& curve);
 std::optional<BiasMap> bias_map(const Reference& reference, const Rung& rung);
+Agreement agreement_of(const Reference& reference, const PeerReference& peer,
+                       const std::vector<Curve>& curves);
 std::vector<Comparison> compare(const std::vector<Curve>& curves, std::size_t yardstick);
 
 }  // namespace wedge::converge

@@ -47,8 +47,9 @@ struct Config {
     /// Time is processor time over the device's compute units: for machines that others use too.
     /// For CPUs only.
     bool cpu_clock = false;
-    bool any_build = false;      ///< take finished runs of other builds of the program too
-    std::string title, command;  ///< for the report
+    std::string python = "python3";  ///< that runs other renderers
+    bool any_build = false;          ///< take finished runs of other builds of the program too
+    std::string title, command;      ///< for the report
     const std::atomic<bool>* stop = nullptr;
 };
 

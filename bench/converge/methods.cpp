@@ -33,6 +33,11 @@ void aaf(RenderOptions& o) {
     o.sampler = kSampler;
 }
 
+constexpr Method peer(const char* name, const char* label, const char* script) {
+    return {name, label,   Knob::spp, false, monte_carlo<Sampler::hash>,
+            {},   nullptr, nullptr,   script};
+}
+
 // The first unbiased method of a comparison is its yardstick.
 constexpr Method kMethods[] = {
     {"mc-sobol", "Monte Carlo, Owen-scrambled Sobol", Knob::spp, false,
@@ -70,6 +75,8 @@ constexpr Method kMethods[] = {
     {"mc-control", "mc-sobol with other seeds: what luck does", Knob::spp, false, control},
     {"aaf-uniform", "aaf with the same samples in every pixel", Knob::spp, true,
      aaf<FilterMode::guarded, false>},
+    peer("mitsuba", "Mitsuba 3, independent samples", "mitsuba_peer.py"),
+    peer("mitsuba-multijitter", "Mitsuba 3, correlated multi-jittered samples", "mitsuba_peer.py"),
 };
 
 const char* name_of(wedge::Method method) {
@@ -86,6 +93,13 @@ std::string method_names() {
     std::string names;
     for (const Method& method : kMethods)
         names += (names.empty() ? "" : ", ") + std::string(method.name);
+    return names;
+}
+
+std::string peer_names() {
+    std::string names;
+    for (const Method& method : kMethods)
+        if (method.peer_script) names += (names.empty() ? "" : ", ") + std::string(method.name);
     return names;
 }
 
@@ -110,6 +124,7 @@ RenderOptions options_for(const Method& method, double value, uint32_t seed) {
 }
 
 nlohmann::json settings_json(const Method& method) {
+    if (method.peer_script) return {{"renderer", method.name}};
     RenderOptions options;
     method.configure(options);
     nlohmann::json settings = {{"method", name_of(options.method)},

@@ -25,6 +25,9 @@ struct Method {
     /// they are there; `external_tag` ends the keys of its runs.
     const char* external_source = nullptr;
     const char* external_tag = nullptr;
+    /// Another renderer, driven by this script of bench/peers; it has no rays to count, and no
+    /// estimates of variance. `configure` is of no use then.
+    const char* peer_script = nullptr;
 };
 
 std::span<const Method> all_methods();
@@ -34,6 +37,7 @@ const Method& find_method(const std::string& name);
 
 /// Names, separated by commas.
 std::string method_names();
+std::string peer_names();  ///< of those with a `peer_script`
 
 /// Options of one run. `value` of the knob; samples per pixel are rounded.
 RenderOptions options_for(const Method& method, double value, uint32_t seed);

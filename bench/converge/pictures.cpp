@@ -109,13 +109,16 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
+std::string png_of(const Picture& picture) {
+    return image::encode_png(picture.width, picture.height, picture.rgb.data(),
+                             "picture of the report");
+}
+
 std::string img_html(const Picture& picture, const std::string& alt, bool pixelated) {
-    const std::string png = image::encode_png(picture.width, picture.height, picture.rgb.data(),
-                                              "picture of the report");
     return fmt::format(
         "<img{} width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>",
         pixelated ? " class=\"pixels\"" : "", picture.width, picture.height, escaped(alt),
-        base64(png));
+        base64(png_of(picture)));
 }
 
 }  // namespace wedge::converge

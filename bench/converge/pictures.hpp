@@ -29,6 +29,9 @@ Picture crop_of(const Picture& picture, const Rect& rect);
 /// Mean of boxes of pixels, so that no side is above `largest`.
 Picture shrunk(const Picture& picture, int largest);
 
+/// The file's bytes.
+std::string png_of(const Picture& picture);
+
 /// `<img …/>`. `pixelated`: shown with hard pixels when enlarged.
 std::string img_html(const Picture& picture, const std::string& alt, bool pixelated);
 

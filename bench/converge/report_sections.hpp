@@ -19,6 +19,9 @@ std::string pictures_section(const SceneAnalysis& scene);
 std::string bias_section(const SceneAnalysis& scene);
 std::string raw_section(const SceneAnalysis& scene);
 
+/// Empty where no other renderer was asked: report_peers.cpp.
+std::string peers_section(const SceneAnalysis& scene);
+
 // What time goes into: report_costs.cpp.
 std::string costs_section(const SceneAnalysis& scene);
 

@@ -50,6 +50,13 @@ json of(const Rung& rung) {
     return object;
 }
 
+json of(const ZTest& z) {
+    return {{"tests", z.tests},
+            {"mean_square_z", z.mean_square_z},
+            {"largest_z", z.largest_z},
+            {"p", z.p}};
+}
+
 json of(const Curve& curve, const Comparison& comparison) {
     json object = {{"method", curve.method->name},
                    {"label", curve.method->label},
@@ -59,16 +66,30 @@ json of(const Curve& curve, const Comparison& comparison) {
                    {"time_at_equal_error", of(comparison.time_at_equal_error)},
                    {"rays_at_equal_error", of(comparison.rays_at_equal_error)},
                    {"rungs", json::array()}};
-    if (const auto& z = curve.z_test)
-        object["z_test"] = {{"tests", z->tests},
-                            {"mean_square_z", z->mean_square_z},
-                            {"largest_z", z->largest_z},
-                            {"p", z->p}};
+    if (curve.z_test) object["z_test"] = of(*curve.z_test);
     if (const auto& map = curve.bias_map)
         object["welch"] = {{"blocks", map->tests},
                            {"share_below_5_percent", map->share_below_5_percent},
                            {"significant_blocks", map->significant}};
     for (const Rung& rung : curve.rungs) object["rungs"].push_back(of(rung));
+    return object;
+}
+
+json of(const Agreement& a) {
+    json object = {{"method", a.method->name},
+                   {"version", a.version},
+                   {"samples_per_pixel", a.spp},
+                   {"rmse", a.rmse},
+                   {"rmse_of_noise", a.rmse_of_noise},
+                   {"ratio_of_means", a.ratio_of_means},
+                   {"z_test", of(a.test)},
+                   {"own_errors", json::array()}};
+    for (const OwnError& e : a.own_errors)
+        object["own_errors"].push_back({{"method", e.method->name},
+                                        {"unit", name_of(e.budget.unit)},
+                                        {"budget", e.budget.value},
+                                        {"rmse_to_reference", e.to_reference},
+                                        {"rmse_to_own_reference", e.to_own}});
     return object;
 }
 
@@ -92,6 +113,7 @@ json of(const SceneAnalysis& analysis) {
         {"warnings", analysis.warnings},
         {"methods", json::array()},
     };
+    for (const Agreement& a : analysis.agreements) object["peers"].push_back(of(a));
     for (std::size_t i = 0; i < analysis.curves.size(); ++i)
         object["methods"].push_back(of(analysis.curves[i], analysis.comparisons[i]));
     return object;

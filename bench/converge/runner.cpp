@@ -10,6 +10,8 @@
 #include "bench/converge/calibration.hpp"
 #include "bench/converge/identity.hpp"
 #include "bench/converge/method_run.hpp"
+#include "bench/converge/peer_runs.hpp"
+#include "bench/peers/scene_export.hpp"
 #include "host/device/device.hpp"
 #include "wedge/error.hpp"
 #include "wedge/image_io.hpp"
@@ -104,7 +106,11 @@ void copy_stats(const RenderStats& stats, bool cpu_clock, RunRecord& record) {
 class SceneRunner {
   public:
     SceneRunner(const Config& config, const Scene& scene, SceneRuns& out, const Say& say)
-        : config_(config), out_(out), say_(say), methods_(config, scene) {}
+        : config_(config),
+          out_(out),
+          say_(say),
+          methods_(config, scene),
+          peers_(config, scene, out.name, out.digest) {}
 
     void run_missing() {
         const std::string program = program_digest(config_.kernel_dir);
@@ -131,6 +137,7 @@ class SceneRunner {
             knobs_[{task.method, task.budget.value}] = found->second.knob;
             out_.runs.push_back(found->second);
         }
+        out_.peer_references = peers_.references(say_);
     }
 
   private:
@@ -149,48 +156,71 @@ class SceneRunner {
         auto [calibration, is_new] = calibrations_.try_emplace(&method);
         if (is_new)
             calibration->second = calibrate(method.knob, [&](double knob) {
-                return counted_seconds(methods_.run(method, knob, 0).stats, config_.cpu_clock);
+                return method.peer_script ? peers_.seconds(method, knob)
+                                          : counted_seconds(methods_.run(method, knob, 0).stats,
+                                                            config_.cpu_clock);
             });
         return knob_for_seconds(calibration->second, method.knob, budget.value);
     }
 
     RunRecord run(const Task& task, const std::string& program) {
         const Method& method = *task.method;
+        if (method.peer_script) return run_peer(task, program);
         warm_up(method);
         const double knob = knob_for(method, task.budget);
         const Frame frame = methods_.run(method, knob, task.seed);
 
-        RunRecord record;
-        record.key = task.key;
-        record.scene = out_.name;
-        record.scene_digest = out_.digest;
-        record.method = method.name;
-        record.budget = task.budget;
+        RunRecord record = new_record(task, program);
         record.knob = knob;
-        record.seed = task.seed;
-        record.width = frame.image.width;
-        record.height = frame.image.height;
-        record.version = version();
-        record.program = program;
-        record.commit = built_from_commit();
-        record.settings = settings_json(method);
         record.command = fmt::format("wedge render {} --size {}x{} --bounces {} {}", out_.file,
                                      out_.film.width, out_.film.height, out_.bounces,
                                      render_arguments(methods_.options(method, knob, task.seed))) +
                          (method.filter ? fmt::format(" # then {}", method.name) : "");
         copy_stats(frame.stats, config_.cpu_clock, record);
-        record.image = fmt::format("images/{}-{}-{}{:g}-seed{}-{}.exr", out_.name, method.name,
+        keep(record, kept_layers(frame.image, !method.biased));
+        return record;
+    }
+
+    RunRecord run_peer(const Task& task, const std::string& program) {
+        RunRecord record = new_record(task, program);
+        record.knob = knob_for(*task.method, task.budget);
+        const Image image = peers_.run(*task.method, record);
+        record.command = fmt::format("{} {} # {}, {:g} samples a pixel, seed {}", config_.python,
+                                     task.method->peer_script, out_.file, record.knob, task.seed);
+        keep(record, image);
+        return record;
+    }
+
+    RunRecord new_record(const Task& task, const std::string& program) const {
+        RunRecord record;
+        record.key = task.key;
+        record.scene = out_.name;
+        record.scene_digest = out_.digest;
+        record.method = task.method->name;
+        record.budget = task.budget;
+        record.seed = task.seed;
+        record.width = out_.film.width;
+        record.height = out_.film.height;
+        record.version = version();
+        record.program = program;
+        record.commit = built_from_commit();
+        record.settings = settings_json(*task.method);
+        record.image = fmt::format("images/{}-{}-{}{:g}-seed{}-{}.exr", out_.name, record.method,
                                    name_of(task.budget.unit), task.budget.value, task.seed,
                                    task.key.substr(0, 8));
-        write_exr(config_.folder / record.image, kept_layers(frame.image, !method.biased));
-        append_line(config_.folder / "runs.jsonl", to_json(record).dump());
         return record;
+    }
+
+    void keep(const RunRecord& record, const Image& image) const {
+        write_exr(config_.folder / record.image, image);
+        append_line(config_.folder / "runs.jsonl", to_json(record).dump());
     }
 
     const Config& config_;
     SceneRuns& out_;
     const Say& say_;
     MethodRunner methods_;
+    PeerRuns peers_;
     std::set<const Method*> warm_;
     std::map<const Method*, Calibration> calibrations_;
     std::map<std::pair<const Method*, double>, double> knobs_;
@@ -198,11 +228,20 @@ class SceneRunner {
 
 }  // namespace
 
-SceneRuns run_scene(const Config& config, const std::string& scene_file, const LoadOptions& load,
-                    const Say& say) {
+Scene scene_to_measure(const Config& config, const std::string& scene_file, const LoadOptions& load,
+                       const Say& say) {
     Scene scene = load_scene(scene_file, load);
     scene.film = film_for(config.size, scene.film);
     if (config.bounces) scene.defaults.bounces = *config.bounces;
+    if (std::any_of(config.methods.begin(), config.methods.end(),
+                    [](const std::string& name) { return find_method(name).peer_script; }))
+        for (const std::string& line : peers::simplify_for_peers(scene)) say(line);
+    return scene;
+}
+
+SceneRuns run_scene(const Config& config, const std::string& scene_file, const LoadOptions& load,
+                    const Say& say) {
+    const Scene scene = scene_to_measure(config, scene_file, load, say);
     fs::create_directories(config.folder / "images");
 
     SceneRuns out;

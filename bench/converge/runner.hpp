@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/converge/config.hpp"
+#include "bench/converge/peer_runs.hpp"
 #include "bench/converge/reference.hpp"
 #include "bench/converge/run_record.hpp"
 
@@ -19,9 +20,15 @@ struct SceneRuns {
     uint64_t triangles = 0;
     Reference reference;
     std::vector<RunRecord> runs;
+    std::vector<PeerReference> peer_references;
 };
 
 using Say = std::function<void(const std::string&)>;
+
+/// The scene at the size and with the bounces of `config`; without what other renderers have no
+/// counterpart for, which is said, if there are any among the methods.
+Scene scene_to_measure(const Config& config, const std::string& scene_file, const LoadOptions& load,
+                       const Say& say);
 
 /// Runs of different methods alternate, so that a slow moment of the machine meets all. Finished
 /// runs are lines of `folder`/runs.jsonl and images in `folder`/images; those that are there and

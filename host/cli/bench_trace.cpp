@@ -200,6 +200,7 @@ void register_bench(CLI::App& app) {
 #if WEDGE_WITH_IMAGE
     register_bench_converge(*group);
     register_bench_stability(*group);
+    register_bench_peers(*group);
 #endif
 }
 

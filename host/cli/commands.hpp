@@ -17,6 +17,7 @@ void register_explain(CLI::App& app);            // explain.cpp
 void register_compare(CLI::App& app);            // compare.cpp; needs image support
 void register_bench(CLI::App& app);              // bench_trace.cpp; with what the next adds
 void register_bench_converge(CLI::App& bench);   // bench_converge.cpp; needs image support
+void register_bench_peers(CLI::App& bench);      // bench_peers.cpp; needs image support
 void register_bench_stability(CLI::App& bench);  // bench_stability.cpp; needs image support
 
 /// Exit codes beside those of ErrorKind (docs/cli.md).
