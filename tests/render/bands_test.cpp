@@ -63,7 +63,7 @@ TEST_CASE("what_bands_cannot_do_is_said") {
     RenderOptions options = quick(8, 0);
     options.film_bytes = kPixel;
     options.method = Method::aaf;
-    CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("only the method mc"), Error);
+    CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("only --method mc"), Error);
     options.method = Method::mc;
     options.time_limit_s = 1;
     CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("cannot end at a time"), Error);
