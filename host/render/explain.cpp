@@ -39,6 +39,10 @@ Line shadows(const Scene& scene, const Plan& plan) {
     const std::size_t rects = scene.rect_lights.size() + find_shining_rects(scene).size();
     if (rects == 0) return {"soft shadows", "none", "no rectangle shines"};
     if (plan.signals == 0) return {"soft shadows", "Monte Carlo", "the method filters nothing"};
+    if (plan.shadow_lights == 0)  // something else is filtered
+        return {"soft shadows", "Monte Carlo",
+                fmt::format("most light is not of the {} most powerful of {} shining rectangles",
+                            WEDGE_MAX_SHADOW_LIGHTS, rects)};
     std::string why = fmt::format("on diffuse surfaces seen directly; {} of {} shining rectangles",
                                   plan.shadow_lights, rects);
     if (std::size_t(plan.shadow_lights) < rects) why += ", the most powerful; others Monte Carlo";

@@ -10,10 +10,6 @@ shared::float4 to_float4(const Vec3& v, double w) {
     return {v.x, v.y, v.z, float(w)};
 }
 
-double luminance(const Vec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
-
 /// Share of a Gaussian about an edge's middle that lies on the edge, with sigma as a fraction of
 /// it.
 double gaussian_share(double sigma) {
@@ -26,6 +22,10 @@ double gaussian_mean(double sigma) {
 }
 
 }  // namespace
+
+double luminance(const Vec3& c) {
+    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
 
 double light_power(const RectLight& rect) {
     const double u = glm::length(rect.edge_u), v = glm::length(rect.edge_v);

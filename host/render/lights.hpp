@@ -8,6 +8,8 @@
 
 namespace wedge::rendering {
 
+double luminance(const Vec3& colour);
+
 /// Power of a light, up to a factor common to all, by luminance.
 double light_power(const RectLight& rect);
 

@@ -22,11 +22,27 @@ std::vector<bool> used_materials(const Scene& scene) {
     return used;
 }
 
+/// With less than this share of the power of all lights, filters have little to do, and to sample
+/// those lights one by one costs more than it gains.
+constexpr double kLeastFilteredPower = 0.5;
+
+/// The most powerful rectangles, unless most light comes from elsewhere.
 int count_shadow_lights(const Scene& scene) {
+    std::vector<double> powers;
+    for (const RectLight& rect : scene.rect_lights) powers.push_back(light_power(rect));
+    double all = shining_power(scene);
+    for (const double power : powers) all += power;
+    for (const PointLight& point : scene.point_lights)
+        all += 4 * double(kPi) * luminance(point.intensity);
+    for (const ShiningRect& rect : find_shining_rects(scene))
+        powers.push_back(light_power(rect.light));
+    std::sort(powers.rbegin(), powers.rend());
     int count = 0;
-    for (const RectLight& rect : scene.rect_lights) count += light_power(rect) > 0;
-    for (const ShiningRect& rect : find_shining_rects(scene)) count += light_power(rect.light) > 0;
-    return std::min(count, WEDGE_MAX_SHADOW_LIGHTS);
+    double filtered = 0;
+    while (count < std::min(int(powers.size()), WEDGE_MAX_SHADOW_LIGHTS) &&
+           powers[std::size_t(count)] > 0)
+        filtered += powers[std::size_t(count++)];
+    return filtered >= kLeastFilteredPower * all ? count : 0;
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+
+#include "host/render/lights.hpp"
 
 namespace wedge::rendering {
 namespace {
@@ -80,6 +83,21 @@ std::vector<ShiningRect> find_shining_rects(const Scene& scene) {
         }
     }
     return found;
+}
+
+double shining_power(const Scene& scene) {
+    double power = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const Material& m = scene.materials[material_of(scene, instance, t)];
+            if (m.emission == Vec3(0)) continue;
+            const Corners c = corners_of(mesh, instance.transform, t);
+            const double area = 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
+            if (std::isfinite(area)) power += area * double(kPi) * luminance(m.emission);
+        }
+    }
+    return power;
 }
 
 }  // namespace wedge::rendering

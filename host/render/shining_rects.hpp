@@ -19,4 +19,8 @@ struct ShiningRect {
 /// order of the instances and their triangles.
 std::vector<ShiningRect> find_shining_rects(const Scene& scene);
 
+/// Power of all shining triangles, those of rectangles too, in units of light_power(). Textures of
+/// emission count as white.
+double shining_power(const Scene& scene);
+
 }  // namespace wedge::rendering

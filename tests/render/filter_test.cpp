@@ -291,6 +291,19 @@ TEST_CASE("the_guard_takes_back_filters_that_do_harm") {
     }
 }
 
+TEST_CASE("more_samples_overrule_a_filter_that_is_too_wide") {
+    // A filter four times as wide as theory asks for, and samples enough to see that it does harm.
+    const Scene scene = make_penumbra(LightProfile::uniform);
+    const Image truth = render(scene, quick(4096, 0, Sampler::sobol, 9)).image;
+    RenderOptions options = filtered(0.25f);
+    options.adaptive = false;
+    options.samples_per_pixel = 256;
+    const double guarded = rmse(render(scene, options).image, truth);
+    options.filter = FilterMode::plain;
+    CHECK(guarded < 0.3 * rmse(render(scene, options).image, truth));
+    CHECK(guarded < 1.5 * rmse(render(scene, quick(256, 0)).image, truth));
+}
+
 TEST_CASE("the_error_layer_tells_the_error") {
     Scene scene = make_room(0);
     scene.film = {64, 48};
@@ -334,6 +347,68 @@ TEST_CASE("explain_names_what_a_plan_has_and_no_more") {
     CHECK(shiny.find("indirect, gloss    filtered") != std::string::npos);
     CHECK(shiny.find("WEDGE_SPECULAR=1") != std::string::npos);
     CHECK(explain(make_room(0), quick(1, 0)).find("plain Monte Carlo") != std::string::npos);
+}
+
+TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
+    // Nine equal lamps, of which four can be filtered; then one that outshines the others.
+    Scene scene = make_penumbra(LightProfile::uniform);
+    scene.rect_lights.resize(9, scene.rect_lights[0]);
+    const char* filtering = "soft shadows       filtered";
+    CHECK(explain(scene, filtered(1)).find(filtering) == std::string::npos);
+    scene.rect_lights[7].radiance *= 20.0f;
+    CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
+    // A shining mesh counts as well, and a lamp of two triangles as the rectangle that it is.
+    scene.rect_lights.resize(1);
+    Material lamp = lambert(0);
+    lamp.emission = Vec3(1e3f);
+    scene.materials.push_back(lamp);
+    scene.meshes.push_back(make_sphere({0, 9, 0}, 1, 8, false, 1));
+    scene.instances.push_back({.mesh = uint32_t(scene.meshes.size() - 1)});
+    CHECK(explain(scene, filtered(1)).find(filtering) == std::string::npos);
+    scene.meshes.back() = make_quad({-1, 9, -1}, {2, 0, 0}, {0, 0, 2}, 1);
+    CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
+}
+
+TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
+    // No shadows, so that filters ask for none; but a highlight, which is noise.
+    Material shiny = lambert(0.3f);
+    shiny.specular = Vec3(0.4f);
+    shiny.exponent = 40;
+    shiny.model = SpecularModel::phong;
+    Scene scene = make_scene({make_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 0)}, {shiny});
+    scene.film = {48, 32};
+    scene.camera = {.position = {0, 1, 3}, .target = {0, 0, 0}, .vertical_fov_rad = 0.6f};
+    scene.rect_lights = {
+        {.center = {0, 1.5f, -2}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = Vec3(9)}};
+    std::vector<double> samples = channel_values(render(scene, filtered(1)).image, "spp");
+    std::sort(samples.begin(), samples.end());
+    CHECK(samples.front() == WEDGE_LIGHT_PROBES);
+    CHECK(samples.back() >= 4 * WEDGE_LIGHT_PROBES);
+    CHECK(samples[samples.size() / 4] == WEDGE_LIGHT_PROBES);  // only there
+}
+
+TEST_CASE("narrow_surfaces_get_more_samples") {
+    // The same penumbra on whole ground and on strips, which leave filters fewer neighbours.
+    Scene whole = make_penumbra(LightProfile::uniform), strips = whole;
+    strips.meshes[0] = make_quad({-4, 0, -4}, {0, 0, 8}, {0.06f, 0, 0}, 0);
+    strips.instances[0].mesh = 0;
+    for (int i = 1; i < 40; ++i) {
+        strips.meshes.push_back(make_quad({-4 + 0.2f * i, 0, -4}, {0, 0, 8}, {0.06f, 0, 0}, 0));
+        strips.instances.push_back({.mesh = uint32_t(strips.meshes.size() - 1)});
+    }
+    const auto mean_samples = [](const Scene& scene) {
+        const Image image = render(scene, filtered(1)).image;
+        const std::vector<double> spp = channel_values(image, "spp"),
+                                  covered = channel_values(image, "A"),
+                                  width = channel_values(image, "width.direct");
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < spp.size(); ++i)
+            if (covered[i] > 0.3 && width[i] > 0) sum += spp[i], ++count;
+        return sum / count;
+    };
+    CAPTURE(mean_samples(whole));
+    CAPTURE(mean_samples(strips));
+    CHECK(mean_samples(strips) > 1.3 * mean_samples(whole));
 }
 
 TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
