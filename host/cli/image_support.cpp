@@ -34,6 +34,10 @@ void write_output(const std::filesystem::path& file, const Image& image, const D
         write_png(file, image, develop.exposure, parse_tone_curve(develop.tone));
 }
 
+void write_output(const std::filesystem::path& file, const image::HeatLayer& layer) {
+    image::write_heat_map(file, layer);
+}
+
 #else
 
 void require_image_support(const std::string& command) {
@@ -54,6 +58,9 @@ TextureLoader texture_loader() {
 void check_tone(const std::string&) {}
 void check_output(const std::filesystem::path&) {}
 void write_output(const std::filesystem::path&, const Image&, const Develop&) {
+    require_image_support("render");
+}
+void write_output(const std::filesystem::path&, const image::HeatLayer&) {
     require_image_support("render");
 }
 

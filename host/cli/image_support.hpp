@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/image/heat_map.hpp"
 #include "wedge/image.hpp"
 #include "wedge/scene.hpp"
 
@@ -38,5 +39,8 @@ void check_output(const std::filesystem::path& file);
 
 /// `.exr` or `.png`, by the extension. Throws Error(output).
 void write_output(const std::filesystem::path& file, const Image& image, const Develop& develop);
+
+/// A PNG. Throws Error(output).
+void write_output(const std::filesystem::path& file, const image::HeatLayer& layer);
 
 }  // namespace wedge::cli

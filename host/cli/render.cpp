@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "host/base/atomic_file.hpp"
 #include "host/cli/asset_paths.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/heat.hpp"
 #include "host/cli/image_support.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/layers.hpp"
@@ -26,6 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Layers and the files of their heat maps.
+using HeatFiles = std::vector<std::pair<std::string, fs::path>>;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -34,6 +39,21 @@ void check_outputs(const RenderArguments& arguments, const RenderJob& job) {
     for (const fs::path& file : job.outputs) check_output(file);
     if (!arguments.stats_file.empty()) check_output(arguments.stats_file);
     if (!arguments.resume_file.empty()) check_output(arguments.resume_file);
+}
+
+/// Beside the first output, by layer. Throws Error if one cannot be there or be written.
+HeatFiles plan_heat(const RenderJob& job, const Scene& scene) {
+    HeatFiles files;
+    for (const std::string& layer : choose_heat_layers(job.heat, scene, job.options)) {
+        const fs::path file = heat_file(job.outputs.front(), layer);
+        if (std::count(job.outputs.begin(), job.outputs.end(), file) > 0)
+            throw Error(ErrorKind::usage, fmt::format("--heat {}: would replace the image {}; give "
+                                                      "--output another name",
+                                                      layer, file.string()));
+        check_output(file);
+        files.emplace_back(layer, file);
+    }
+    return files;
 }
 
 void replay(const Scene& scene, const RenderJob& job) {
@@ -50,20 +70,22 @@ Frame render_with_progress(const Scene& scene, RenderOptions options) {
     return render(scene, options);
 }
 
+void write_image(const fs::path& file, const Image& image, const std::vector<std::string>& layers,
+                 const Develop& develop) {
+    // Images of gigabytes are not copied in vain.
+    if (output_format(file) != OutputFormat::exr || holds_only(image, layers))
+        write_output(file, image, develop);
+    else
+        write_output(file, select_layers(image, layers), develop);
+}
+
 // A file that fails must not take the others with it: all are tried, the first error is thrown.
-void write_outputs(const RenderArguments& arguments, const RenderJob& job, const Image& image,
-                   float exposure) {
+void write_outputs(const RenderJob& job, const HeatFiles& heat_files, const Image& image,
+                   const Develop& develop) {
     std::unique_ptr<Error> first_error;
-    for (const fs::path& file : job.outputs) {
+    const auto attempt = [&](const fs::path& file, const auto& write) {
         try {
-            // Images of gigabytes are not copied in vain.
-            const bool as_it_is =
-                output_format(file) != OutputFormat::exr || holds_only(image, job.layers);
-            const Develop develop{exposure, arguments.tone};
-            if (as_it_is)
-                write_output(file, image, develop);
-            else
-                write_output(file, select_layers(image, job.layers), develop);
+            write();
             fmt::print("{}\n", file.string());
         } catch (const Error& error) {
             if (first_error)
@@ -71,7 +93,16 @@ void write_outputs(const RenderArguments& arguments, const RenderJob& job, const
             else
                 first_error = std::make_unique<Error>(error);
         }
-    }
+    };
+    for (const fs::path& file : job.outputs)
+        attempt(file, [&] { write_image(file, image, job.layers, develop); });
+    for (const auto& [layer, file] : heat_files)
+        if (has_heat_layer(image, layer))
+            attempt(file,
+                    [&, &layer = layer, &file = file] { write_heat(file, image, layer, develop); });
+        else
+            log_warning("the render ended without the layer " + layer + "; there is no " +
+                        file.string());
     std::fflush(stdout);
     if (first_error) throw *first_error;
 }
@@ -112,12 +143,13 @@ void run(const RenderArguments& arguments) {
     apply_film(job, scene);
     const double load_s = seconds_since(start);
     if (job.pixel) return replay(scene, job);
+    const HeatFiles heat_files = plan_heat(job, scene);
 
     const Frame frame = render_with_progress(scene, job.options);
     const RenderStats& stats = frame.stats;
     if (stats.samples == 0) end_without_image(stats);
-    write_outputs(arguments, job, frame.image,
-                  arguments.exposure.value_or(scene.defaults.exposure));
+    const float exposure = arguments.exposure.value_or(scene.defaults.exposure);
+    write_outputs(job, heat_files, frame.image, {exposure, arguments.tone});
     if (!arguments.stats_file.empty())
         write_stats(arguments.stats_file,
                     stats_json(stats, scene, job.options, arguments.scene, load_s));
@@ -182,6 +214,14 @@ void add_results(CLI::App& command, RenderArguments& a) {
         .add_option("--aov", a.layers,
                     "Layers of the EXR, separated by commas: " + layer_names() +
                         ", all or none; default: all")
+        ->type_name("LIST")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
+        .add_option("--heat", a.heat,
+                    "Write these layers as heat maps with a legend, OUTPUT.LAYER.png, separated by "
+                    "commas: " +
+                        heat_layer_names() + ", or all; default: none")
         ->type_name("LIST")
         ->delimiter(',')
         ->allow_extra_args(false);

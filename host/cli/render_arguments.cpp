@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/cli/bvh_options.hpp"
+#include "host/cli/heat.hpp"
 #include "host/cli/layers.hpp"
 #include "host/cli/numbers.hpp"
 #include "wedge/error.hpp"
@@ -176,6 +177,8 @@ RenderJob check_arguments(const RenderArguments& arguments) {
 
     job.outputs = output_files(arguments);
     job.layers = parse_layers(arguments.layers);
+    check_heat_names(arguments.heat);
+    job.heat = arguments.heat;
     if (!arguments.size.empty()) job.film = parse_size(arguments.size);
     if (!arguments.pixel.empty()) job.pixel = parse_pixel(arguments.pixel);
     return job;

@@ -16,7 +16,7 @@ namespace wedge::cli {
 struct RenderArguments {
     std::string scene;
     std::vector<std::string> outputs;
-    std::vector<std::string> layers;
+    std::vector<std::string> layers, heat;
     std::vector<std::string> asset_paths;
     std::string size, crop, pixel;
     std::string sampler = "sobol", method, filter = "guarded", integrator = "path";
@@ -46,6 +46,7 @@ struct RenderJob {
     RenderOptions options;
     std::vector<std::filesystem::path> outputs;
     std::vector<std::string> layers;  ///< of the EXR, beside R, G, B, A; see layers.hpp
+    std::vector<std::string> heat;    ///< names as typed; see heat.hpp
     std::optional<Film> film;
     bool ambient_occlusion = false;
     std::optional<Pixel> pixel;
