@@ -136,26 +136,6 @@ inline float2 found_near(const Neighbours* n, FilterSurface p, int id, int signa
     return own.x < 0.0f ? mean_found(n, p, signal, NEIGHBOURHOOD_PX) : own;
 }
 
-/* Share of the pixels within reach of a filter, along a row and a column, that show surface p. The theory counts on
-   all; where a surface is narrow, fewer pixels must do with more samples each. */
-#define WEDGE_MOST_STEPS_PX 6
-
-inline float filled_share(const Neighbours* n, FilterSurface p, float sigma_px) {
-    const int reach = clamp((int)ceil(2.0f * sigma_px), 1, WEDGE_MOST_STEPS_PX);
-    float share = 1.0f;
-    for (int axis = 0; axis < 2; ++axis) {
-        float same = 0.0f, all = 0.0f;
-        for (int step = -reach; step <= reach; ++step) {
-            const int i = n->x + (axis == 0 ? step : 0), j = n->y + (axis == 0 ? 0 : step);
-            if (i < 0 || i >= n->width || j < 0 || j >= n->height) continue;
-            all += 1.0f;
-            if (same_surface(n->surfaces, p, j * n->width + i) >= 0) same += 1.0f;
-        }
-        share *= fmax(same, 1.0f) / all;
-    }
-    return share;
-}
-
 /* Standard deviation taken for a light's profile; a uniform one is as wide as its half side. */
 inline float light_sigma(__global const Light* light) {
     const float u = length(light->edge_u.xyz), v = length(light->edge_v.xyz);
@@ -335,9 +315,9 @@ __kernel void filter_bandwidth(__constant FilterSettings* settings,
             const float relative = radiance_variance(surface_sums + id, reflected + id * WEDGE_SHADOW_LIGHTS,
                                                      signal, fmax(variance, 0.0f)) / bright;
             if (!(relative > 0.0f)) continue;
-            const float filled = filled_share(&neighbours, p, bandwidth.x / p.normal.w);
-            const float pixels = filled * 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (p.position.w * p.normal.w);
-            most = fmax(most, fmin(4.0f * relative, 1.0f) * bandwidth.y / filled);
+            const float pixels =
+                4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (p.position.w * p.normal.w);
+            most = fmax(most, fmin(4.0f * relative, 1.0f) * bandwidth.y);
             most = fmax(most, noise_samples(settings->mu, relative, pixels));
         }
         if (most > 0.0f) samples += most * surface_sums[id].position.w / seen;

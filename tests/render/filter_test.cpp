@@ -387,30 +387,6 @@ TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
     CHECK(samples[samples.size() / 4] == WEDGE_LIGHT_PROBES);  // only there
 }
 
-TEST_CASE("narrow_surfaces_get_more_samples") {
-    // The same penumbra on whole ground and on strips, which leave filters fewer neighbours.
-    Scene whole = make_penumbra(LightProfile::uniform), strips = whole;
-    strips.meshes[0] = make_quad({-4, 0, -4}, {0, 0, 8}, {0.06f, 0, 0}, 0);
-    strips.instances[0].mesh = 0;
-    for (int i = 1; i < 40; ++i) {
-        strips.meshes.push_back(make_quad({-4 + 0.2f * i, 0, -4}, {0, 0, 8}, {0.06f, 0, 0}, 0));
-        strips.instances.push_back({.mesh = uint32_t(strips.meshes.size() - 1)});
-    }
-    const auto mean_samples = [](const Scene& scene) {
-        const Image image = render(scene, filtered(1)).image;
-        const std::vector<double> spp = channel_values(image, "spp"),
-                                  covered = channel_values(image, "A"),
-                                  width = channel_values(image, "width.direct");
-        double sum = 0, count = 0;
-        for (std::size_t i = 0; i < spp.size(); ++i)
-            if (covered[i] > 0.3 && width[i] > 0) sum += spp[i], ++count;
-        return sum / count;
-    };
-    CAPTURE(mean_samples(whole));
-    CAPTURE(mean_samples(strips));
-    CHECK(mean_samples(strips) > 1.3 * mean_samples(whole));
-}
-
 TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
     Scene matt = make_room(0), shiny = make_room(20);
     matt.film = shiny.film = {32, 24};
