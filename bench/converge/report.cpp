@@ -31,7 +31,8 @@ std::string scene_html(const SceneAnalysis& scene) {
                escaped(runs.name), runs.film.width, runs.film.height, runs.triangles, runs.bounces,
                runs.reference.spp, runs.reference.sampler, short_number(scene.reference_rmse)) +
            charts_section(scene) + comparison_section(scene) + pictures_section(scene) +
-           bias_section(scene) + peers_section(scene) + costs_section(scene) + raw_section(scene) + "</section>\n";
+           bias_section(scene) + peers_section(scene) + costs_section(scene) + raw_section(scene) +
+           "</section>\n";
 }
 
 }  // namespace
