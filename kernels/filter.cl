@@ -91,6 +91,12 @@ __kernel void filter_y(FILTER_PARAMS) {
             filter_line(settings, lights, surfaces, sigmas, means, filtered, line, id, scale);
 }
 
+/* One half of a signal. Where none of its samples met the surface, the other half stands in. */
+inline float4 half_of(float8 f, int h) {
+    const float4 own = h == 0 ? f.s0123 : f.s4567, other = h == 0 ? f.s4567 : f.s0123;
+    return own.w > 0.0f ? own : other;
+}
+
 /* What the surfaces of a pixel make of filtered signals. */
 inline HalfLight combine_surfaces(__global const SurfaceSum* sums, __global const float4* reflected,
                                   __global const float8* filtered, float samples) {
@@ -101,7 +107,7 @@ inline HalfLight combine_surfaces(__global const SurfaceSum* sums, __global cons
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
             const float8 f = filtered[k * WEDGE_SIGNALS + signal];
             for (int h = 0; h < 2; ++h) {
-                const float4 v = h == 0 ? f.s0123 : f.s4567;
+                const float4 v = half_of(f, h);
                 if (signal < WEDGE_SHADOW_LIGHTS) {
                     const float visibility = v.y > 0.0f ? v.x / v.y : 0.0f;
                     light.direct[h].xyz +=
