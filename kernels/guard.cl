@@ -28,14 +28,20 @@ inline float4 errors_of(__global const float4* none, __global const float4* narr
                     filtered_error(full, none, noise), 0.0f);
 }
 
-__kernel void guard_errors(__global const HalfLight* restrict light,
+/* A render that was stopped early has pixels without a second half. They know nothing: what their neighbours know
+   decides, and if none knows anything, the filter is trusted. */
+__kernel void guard_errors(__global const HalfLight* restrict unfiltered,
+                           __global const HalfLight* restrict light,
                            __global FilterErrors* restrict errors, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     __global const HalfLight *none = light + id, *narrow = none + count, *full = narrow + count;
     FilterErrors e;
-    e.direct = errors_of(none->direct, narrow->direct, full->direct);
-    e.indirect = errors_of(none->indirect, narrow->indirect, full->indirect);
+    e.direct = e.indirect = (float4)(0.0f);
+    if (unfiltered[id].direct[1].w > 0.0f) {
+        e.direct = errors_of(none->direct, narrow->direct, full->direct);
+        e.indirect = errors_of(none->indirect, narrow->indirect, full->indirect);
+    }
     e.direct_squared = e.direct * e.direct;
     e.indirect_squared = e.indirect * e.indirect;
     errors[id] = e;

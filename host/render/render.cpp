@@ -81,8 +81,9 @@ FilteredLight run_filtered(SamplingLoop& loop, SignalFilter& filter,
     const auto probes = uint32_t(settings.probe_samples);
     const uint64_t pixels = filter.pixel_count();
     // How many samples there will be is known only after the probe; until then progress guesses.
-    if (loop.run("probe", 0, probes, 4 * probes * pixels, true)) {
-        loop.add_pass("bandwidth", filter.measure_bandwidth());
+    const bool goes_on = loop.run("probe", 0, probes, 4 * probes * pixels, true);
+    loop.add_pass("bandwidth", filter.measure_bandwidth(goes_on));
+    if (goes_on) {
         const std::vector<SampleEnds> ends = filter.read_sample_ends();
         uint64_t total = 0;
         for (const SampleEnds& end : ends) total += std::max(end.paths, end.camera_rays);

@@ -167,7 +167,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
         (program.from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
     // Some drivers compile at the first launch: empty ones keep that out of the rendering time.
     set_args(0, 0);
-    measure_bandwidth();
+    measure_bandwidth(true);
     filter();
     set_args(width_, height_);
     stats.compile_s += watch.lap();
@@ -188,7 +188,7 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, means_, width,
                     height);
     set_kernel_args(combine_, film_, surface_sums_, reflected_, means_, light_, pixels, cl_uint(0));
-    set_kernel_args(guard_errors_, light_, errors_, pixels);
+    set_kernel_args(guard_errors_, unfiltered_, light_, errors_, pixels);
     set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
     set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
     set_kernel_args(choose_, settings_, unfiltered_, light_, errors_, guarded_, pixels);
@@ -203,15 +203,15 @@ double SignalFilter::run(std::span<const Launch> launches) {
     return seconds;
 }
 
-double SignalFilter::measure_bandwidth() {
+double SignalFilter::measure_bandwidth(bool goes_on) {
     const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
     const Launch measured[] = {{surfaces_kernel_, surfaces},
                                {distances_kernel_, surfaces * signals_},
                                {brightness_kernel_, height_}};
-    const Launch decided[] = {{bandwidth_kernel_, pixels}, {merge_kernel_, pixels}};
-    const double seconds = run(measured);
+    double seconds = run(measured);
     bandwidth_kernel_.setArg(kBrightnessArg, mean_brightness());
-    return seconds + run(decided);
+    seconds += run(std::array{Launch{bandwidth_kernel_, pixels}});
+    return goes_on ? seconds + run(std::array{Launch{merge_kernel_, pixels}}) : seconds;
 }
 
 float SignalFilter::mean_brightness() {

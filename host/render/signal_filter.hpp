@@ -45,8 +45,9 @@ class SignalFilter {
 
     uint64_t pixel_count() const { return uint64_t(width_) * height_; }
 
-    /// From the probe samples to widths and counts. Returns seconds on the device.
-    double measure_bandwidth();
+    /// From the probe samples to widths and counts. `goes_on`: more samples will follow, to which the
+    /// probe is the first part. Returns seconds on the device.
+    double measure_bandwidth(bool goes_on);
     /// From all samples to filtered light. Returns seconds on the device.
     double filter();
 
