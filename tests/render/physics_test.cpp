@@ -134,6 +134,34 @@ TEST_CASE("irradiance_under_a_rectangle_is_that_of_the_closed_form") {
         }
 }
 
+TEST_CASE("light_must_be_above_face_and_shading_normal") {
+    // Both cut the lamp: what is left of it gives irradiance by the shading normal.
+    const RectLight lamp{.center = {0.3f, 0.5f, -0.2f},
+                         .edge_u = {2, 0, 0},
+                         .edge_v = {0, 0, 2},
+                         .radiance = Vec3(1)};
+    const glm::dvec3 face = glm::normalize(glm::dvec3(0.9, 0.3, 0));
+    const glm::dvec3 bent = glm::normalize(glm::dvec3(0.8, 0.3, 0.7));
+    const Vec3 n(face), u = glm::normalize(glm::cross(n, Vec3(0, 0, 1))), v = glm::cross(u, n);
+    const float size = 1e-3f;
+    Mesh quad = make_quad(-0.5f * size * (v + u), size * v, size * u, 0);
+    quad.normals.assign(quad.positions.size(), Vec3(bent));
+    Scene scene = make_scene({quad}, {lambert(0.8f)});
+    scene.rect_lights = {lamp};
+    scene.film = {8, 8};
+    scene.camera = {.position = 0.1f * n, .target = {0, 0, 0}, .up = v, .vertical_fov_rad = 0.004f};
+    const glm::dvec3 c(lamp.center), hu(0.5f * lamp.edge_u), hv(0.5f * lamp.edge_v);
+    const double truth =
+        0.8 / double(kPi) *
+        polygon_irradiance(
+            above_horizon({c - hu - hv, c + hu - hv, c + hu + hv, c - hu + hv}, face), bent);
+    check_mean(render(scene, quick(1024, 0, Sampler::sobol)).image, "direct.G", truth, 0.01);
+    RenderOptions filtered = quick(16, 0);
+    filtered.method = Method::aaf;
+    for (double value : channel_values(render(scene, filtered).image, "direct.G"))
+        CHECK(value == doctest::Approx(truth).epsilon(2e-3));
+}
+
 /// Form factor between two unit squares facing each other at distance 1 (Howell's catalogue, C-11).
 double parallel_squares_form_factor(double x) {
     const double x2 = 1 + x * x;

@@ -1,0 +1,56 @@
+// Which effects a scene has, and what they cost.
+#include <doctest/doctest.h>
+
+#include "filter_scenes.hpp"
+#include "wedge/shared/filter.h"
+
+namespace wedge::test {
+namespace {
+
+TEST_CASE("explain_names_what_a_plan_has_and_no_more") {
+    const std::string matt = explain(make_room(0), filtered(1));
+    CHECK(matt.find("soft shadows       filtered") != std::string::npos);
+    CHECK(matt.find("indirect, diffuse  none") != std::string::npos);  // bounces = 0
+    CHECK(matt.find("WEDGE_SPECULAR") == std::string::npos);
+    RenderOptions bouncing = filtered(1);
+    bouncing.bounces = 2;
+    const std::string shiny = explain(make_room(20), bouncing);
+    CHECK(shiny.find("indirect, gloss    filtered") != std::string::npos);
+    CHECK(shiny.find("WEDGE_SPECULAR=1") != std::string::npos);
+    CHECK(explain(make_room(0), quick(1, 0)).find("plain Monte Carlo") != std::string::npos);
+}
+
+TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
+    // Nine equal lamps, of which four can be filtered; then one that outshines the others.
+    Scene scene = make_penumbra(LightProfile::uniform);
+    scene.rect_lights.resize(9, scene.rect_lights[0]);
+    const char* filtering = "soft shadows       filtered";
+    CHECK(explain(scene, filtered(1)).find(filtering) == std::string::npos);
+    scene.rect_lights[7].radiance *= 20.0f;
+    CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
+    // A shining mesh counts as well, and a lamp of two triangles as the rectangle that it is.
+    scene.rect_lights.resize(1);
+    Material lamp = lambert(0);
+    lamp.emission = Vec3(1e3f);
+    scene.materials.push_back(lamp);
+    scene.meshes.push_back(make_sphere({0, 9, 0}, 1, 8, false, 1));
+    scene.instances.push_back({.mesh = uint32_t(scene.meshes.size() - 1)});
+    CHECK(explain(scene, filtered(1)).find(filtering) == std::string::npos);
+    scene.meshes.back() = make_quad({-1, 9, -1}, {2, 0, 0}, {0, 0, 2}, 1);
+    CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
+}
+
+TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
+    Scene matt = make_room(0), shiny = make_room(20);
+    matt.film = shiny.film = {32, 24};
+    RenderOptions options = filtered(1);
+    options.bounces = 1;
+    const uint64_t more =
+        render(shiny, options).stats.device_bytes - render(matt, options).stats.device_bytes;
+    // One signal: sums, means and filtered means in two halves, distances, width.
+    const uint64_t entries = 32 * 24 * WEDGE_SURFACES;
+    CHECK(more == entries * (32 + 64 + 16 + 16 + 4));
+}
+
+}  // namespace
+}  // namespace wedge::test
