@@ -1,31 +1,41 @@
 /* The guard: how much to filter is decided pixel by pixel, by estimated error.
 
-   The two halves of a pixel's samples are independent. What one half was filtered to, compared with what the other
-   half of the pixel's own samples makes of the same surfaces, tells the square of bias and noise of the filtered half, plus the noise of the other, which
-   the difference of the two unfiltered halves tells (the dual buffers of Rousselle, Knaus, Zwicker 2012). Such
-   estimates are as noisy as what they are made from; their means over neighbouring pixels decide. A rare bright
-   sample in one half cancels: with both filtered halves alike, the estimate is (f - u0) (f - u1). What no filter can change, coverage of pixels by surfaces, is alike in all and
-   does not count.
+   The two halves of a pixel's samples are independent, and so are what they are filtered to. The square of their
+   difference tells noise. Bias is told by how the mean drifts from one width of the filter to the next wider one: the
+   drifts of both halves have the same mean, and their product has the square of it as its own, free of noise (the
+   dual buffers of Rousselle, Knaus, Zwicker 2012, but between neighbouring widths, as in Lepski's choice of a
+   bandwidth, 1991). The narrowest "filter" is the pixel's own samples, which have no bias, so that the drifts add up
+   to the bias; and each is known as well as what the narrower of two filters gives is free of noise. A rare
+   bright sample in one half cancels. What no filter can change, coverage of pixels by surfaces, is alike in all and does
+   not count.
 
-     guard_errors      estimates for each pixel
+     guard_errors      noise and drifts of each pixel
      guard_smooth_x, guard_smooth_y   their means over neighbours
      guard_choose      the mixture of the least error */
 #include "lib/geometry.clh"
 #include "wedge/shared/filter.h"
 
-inline float square(float4 v) { return dot(v.xyz, v.xyz) * (1.0f / 3.0f); }
+inline float dot_rgb(float4 a, float4 b) { return dot(a.xyz, b.xyz) * (1.0f / 3.0f); }
 
-/* Mean square error of f, the mean of two halves; u: the pixel's own halves, `noise`: mean square of their difference. */
-inline float filtered_error(__global const float4* f, __global const float4* u, float noise) {
-    return 0.5f * (square(f[0] - u[1]) + square(f[1] - u[0])) - 0.5f * noise - 0.25f * square(f[0] - f[1]);
+/* Of the mean of two halves. */
+inline float noise_of(__global const float4* halves) {
+    const float4 d = halves[0] - halves[1];
+    return 0.25f * dot_rgb(d, d);
 }
 
-/* By scale. The pixel's own samples have no bias. */
-inline float4 errors_of(__global const float4* none, __global const float4* narrow,
-                        __global const float4* full) {
-    const float noise = square(none[0] - none[1]);
-    return (float4)(0.25f * noise, filtered_error(narrow, none, noise),
-                    filtered_error(full, none, noise), 0.0f);
+inline float drift_of(__global const float4* wide, __global const float4* narrow) {
+    return dot_rgb(wide[0] - narrow[0], wide[1] - narrow[1]);
+}
+
+/* float4 from one pixel's HalfLight to the same of the next scale. */
+#define WEDGE_STRIDE(count) ((count) * (uint)(sizeof(HalfLight) / sizeof(float4)))
+
+inline ScaleErrors errors_of(__global const float4* light, uint stride) {
+    __global const float4 *a = light, *b = a + stride, *c = b + stride, *d = c + stride;
+    ScaleErrors e;
+    e.noise = (float4)(noise_of(a), noise_of(b), noise_of(c), noise_of(d));
+    e.drift = (float4)(0.0f, drift_of(b, a), drift_of(c, b), drift_of(d, c));
+    return e;
 }
 
 /* A render that was stopped early has pixels without a second half. They know nothing: what their neighbours know
@@ -35,15 +45,12 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
                            __global FilterErrors* restrict errors, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    __global const HalfLight *none = light + id, *narrow = none + count, *full = narrow + count;
     FilterErrors e;
-    e.direct = e.indirect = (float4)(0.0f);
+    e.direct.noise = e.direct.drift = e.indirect.noise = e.indirect.drift = (float4)(0.0f);
     if (unfiltered[id].direct[1].w > 0.0f) {
-        e.direct = errors_of(none->direct, narrow->direct, full->direct);
-        e.indirect = errors_of(none->indirect, narrow->indirect, full->indirect);
+        e.direct = errors_of(light[id].direct, WEDGE_STRIDE(count));
+        e.indirect = errors_of(light[id].indirect, WEDGE_STRIDE(count));
     }
-    e.direct_squared = e.direct * e.direct;
-    e.indirect_squared = e.indirect * e.indirect;
     errors[id] = e;
 }
 
@@ -54,20 +61,20 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
 inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,
                                 int before, int after) {
     FilterErrors sum;
-    sum.direct = sum.direct_squared = sum.indirect = sum.indirect_squared = (float4)(0.0f);
+    sum.direct.noise = sum.direct.drift = sum.indirect.noise = sum.indirect.drift = (float4)(0.0f);
     const int begin = -min(before, WEDGE_GUARD_RADIUS), end = min(after, WEDGE_GUARD_RADIUS);
     for (int i = begin; i <= end; ++i) {
         __global const FilterErrors* e = errors + first + i * stride;
-        sum.direct += e->direct;
-        sum.direct_squared += e->direct_squared;
-        sum.indirect += e->indirect;
-        sum.indirect_squared += e->indirect_squared;
+        sum.direct.noise += e->direct.noise;
+        sum.direct.drift += e->direct.drift;
+        sum.indirect.noise += e->indirect.noise;
+        sum.indirect.drift += e->indirect.drift;
     }
     const float share = 1.0f / (float)(end - begin + 1);
-    sum.direct *= share;
-    sum.direct_squared *= share;
-    sum.indirect *= share;
-    sum.indirect_squared *= share;
+    sum.direct.noise *= share;
+    sum.direct.drift *= share;
+    sum.indirect.noise *= share;
+    sum.indirect.drift *= share;
     return sum;
 }
 
@@ -83,47 +90,58 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
     if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
 }
 
-/* Standard error of the estimate `error`, whose mean square is known. */
-inline float standard_error(float error, float mean_square) {
-    const float variance = fmax(mean_square - error * error, 0.0f);
-    return sqrt(variance * (1.0f / (WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE - 1.0f)));
+/* Of the square of a drift this many standard errors of its estimate are taken off: where it is a matter of luck
+   which seems better, the filter is the better guess. */
+#define WEDGE_BENEFIT_OF_DOUBT 1.0f
+
+/* Magnitude of the drift from a filter to a wider one. The halves' drifts have twice the variance of their mean's,
+   which is what noise falls by. White noise is averaged over `pixels`; what a filter has made smooth already
+   hardly is. */
+inline float certain_drift(float product, float narrow_noise, float wide_noise, float pixels) {
+    const float doubt =
+        WEDGE_BENEFIT_OF_DOUBT * 2.0f * fmax(narrow_noise - wide_noise, 0.0f) * rsqrt(pixels);
+    return sqrt(fmax(product - doubt, 0.0f));
+}
+
+/* Mean square errors by scale. */
+inline float4 estimated_errors(ScaleErrors e) {
+    const float4 n = e.noise;
+    float4 bias;
+    bias.x = 0.0f;
+    bias.y = certain_drift(e.drift.y, n.x, n.y, WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE);
+    bias.z = bias.y + certain_drift(e.drift.z, n.y, n.z, 1.0f);
+    bias.w = bias.z + certain_drift(e.drift.w, n.z, n.w, 1.0f);
+    return n + bias * bias;
 }
 
 inline float4 mean_of_halves(__global const float4* light) { return 0.5f * (light[0] + light[1]); }
 
-/* Of the filter's error this many standard errors of its estimate are taken off: where it is a matter of luck
-   which seems better, the filter is the better guess. */
-#define WEDGE_BENEFIT_OF_DOUBT 1.0f
-
 /* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so the mean of a
    filter and none weighted by the errors is better than both. */
-inline float4 choose(float4 errors, float4 squares, float4 none, float4 narrow, float4 full,
-                     float* error) {
-    const bool is_narrow = errors.y < errors.z;
-    const float filter_error = fmin(errors.y, errors.z), noise = errors.x;
-    const float doubt =
-        WEDGE_BENEFIT_OF_DOUBT * standard_error(filter_error, is_narrow ? squares.y : squares.z);
-    const float certain = fmax(filter_error - doubt, 0.0f);
-    const float share = certain > 0.0f ? noise / (noise + certain) : 1.0f;
-    *error = share * share * fmax(filter_error, 0.0f) + (1.0f - share) * (1.0f - share) * noise;
-    const float4 filtered = is_narrow ? narrow : full;
-    return (float4)(mix(none.xyz, filtered.xyz, share), is_narrow ? 0.5f * share : share);
+inline float4 choose(ScaleErrors estimates, __global const float4* light, uint stride, float* error) {
+    const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
+    const float4 errors = estimated_errors(estimates);
+    const float by_scale[WEDGE_SCALES] = {errors.x, errors.y, errors.z, errors.w};
+    int best = WEDGE_SCALES - 1;
+    for (int k = WEDGE_SCALES - 2; k > 0; --k)
+        if (by_scale[k] < by_scale[best]) best = k;
+    const float noise = by_scale[0], filter_error = by_scale[best];
+    const float share = filter_error > 0.0f ? noise / (noise + filter_error) : 1.0f;
+    *error = share * share * filter_error + (1.0f - share) * (1.0f - share) * noise;
+    const float4 none = mean_of_halves(light), filtered = mean_of_halves(light + best * stride);
+    return (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share);
 }
 
 /* As `choose`, but with the filter everywhere or nowhere. `light`: of a pixel by scale, `stride` apart. */
-inline float4 choose_by_mode(int mode, float4 errors, float4 squares, __global const float4* light,
+inline float4 choose_by_mode(int mode, ScaleErrors estimates, __global const float4* light,
                              uint stride, float4 unfiltered, float* error) {
-    const float4 full = mean_of_halves(light + 2 * stride);
-    if (mode == WEDGE_FILTER_MODE_GUARDED)
-        return choose(errors, squares, mean_of_halves(light), mean_of_halves(light + stride), full,
-                      error);
+    if (mode == WEDGE_FILTER_MODE_GUARDED) return choose(estimates, light, stride, error);
+    const float4 errors = estimated_errors(estimates);
     const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
-    *error = plain ? fmax(errors.z, 0.0f) : errors.x;
-    return plain ? (float4)(full.xyz, 1.0f) : (float4)(unfiltered.xyz, 0.0f);
+    *error = plain ? errors.w : errors.x;
+    return plain ? (float4)(mean_of_halves(light + (WEDGE_SCALES - 1) * stride).xyz, 1.0f)
+                 : (float4)(unfiltered.xyz, 0.0f);
 }
-
-/* float4 from one pixel's HalfLight to the same of the next scale. */
-#define WEDGE_STRIDE(count) ((count) * (uint)(sizeof(HalfLight) / sizeof(float4)))
 
 __kernel void guard_choose(__constant FilterSettings* settings,
                            __global const HalfLight* restrict unfiltered,
@@ -138,10 +156,10 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     g.error = (float4)(0.0f);
     float error;
     const int mode = settings->mode;
-    g.direct = choose_by_mode(mode, errors[id].direct, errors[id].direct_squared, light[id].direct, WEDGE_STRIDE(count),
+    g.direct = choose_by_mode(mode, errors[id].direct, light[id].direct, WEDGE_STRIDE(count),
                               (u->direct[0] + u->direct[1]) / n, &error);
     g.error.x = error;
-    g.indirect = choose_by_mode(mode, errors[id].indirect, errors[id].indirect_squared, light[id].indirect, WEDGE_STRIDE(count),
+    g.indirect = choose_by_mode(mode, errors[id].indirect, light[id].indirect, WEDGE_STRIDE(count),
                                 (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
     guarded[id] = g;

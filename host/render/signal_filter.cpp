@@ -23,9 +23,9 @@ constexpr float kSamplesPerMu = 100;  // the cap
 constexpr int kCameraRaysWithBounces = 256, kCameraRaysAlone = 64;
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
-constexpr cl_uint kScaleArg = 8;         // of filter_x and filter_y
-constexpr cl_uint kCombineScaleArg = 6;  // of filter_combine
-constexpr cl_uint kBrightnessArg = 12;   // of filter_bandwidth
+constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
+constexpr cl_uint kIndexArg = 12;       // of filter_y
+constexpr cl_uint kBrightnessArg = 12;  // of filter_bandwidth
 
 int mode_of(FilterMode mode) {
     switch (mode) {
@@ -158,7 +158,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     means_kernel_ = filters.kernel("filter_means");
     filter_x_ = filters.kernel("filter_x");
     filter_y_ = filters.kernel("filter_y");
-    combine_ = filters.kernel("filter_combine");
+    filter_none_ = filters.kernel("filter_none");
     guard_errors_ = guard.kernel("guard_errors");
     smooth_x_ = guard.kernel("guard_smooth_x");
     smooth_y_ = guard.kernel("guard_smooth_y");
@@ -183,11 +183,11 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     found_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height, 0.0f);
     set_kernel_args(merge_kernel_, settings_, sample_ends_, sums_, unfiltered_, pixels);
     set_kernel_args(means_kernel_, unfiltered_, surfaces_, sums_, means_, surfaces * signals_);
-    set_kernel_args(filter_x_, settings_, light_list_, surfaces_, sigmas_, means_, filtered_, width,
-                    height);
-    set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, means_, width,
-                    height);
-    set_kernel_args(combine_, film_, surface_sums_, reflected_, means_, light_, pixels, cl_uint(0));
+    set_kernel_args(filter_none_, film_, surface_sums_, reflected_, means_, light_, pixels);
+    set_kernel_args(filter_x_, settings_, light_list_, surfaces_, sigmas_, means_, width, height,
+                    1.0f, filtered_);
+    set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, width, height,
+                    1.0f, film_, surface_sums_, reflected_, light_, cl_int(0));
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, pixels);
     set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
     set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
@@ -224,23 +224,19 @@ void SignalFilter::write_pixel_list(std::span<const uint32_t> pixels) {
     device_.overwrite(pixel_list_, pixels.data(), pixels.size_bytes());
 }
 
-double SignalFilter::filter_with_scale(uint32_t index) {
-    constexpr float widths[] = WEDGE_SCALE_WIDTHS;
-    const uint64_t pixels = pixel_count();
-    filter_x_.setArg(kScaleArg, widths[index]);
-    filter_y_.setArg(kScaleArg, widths[index]);
-    combine_.setArg(kCombineScaleArg, cl_uint(index));
-    const Launch means{means_kernel_, pixels * WEDGE_SURFACES * signals_};
-    const Launch combine{combine_, pixels};
-    if (widths[index] == 0) return run(std::array{means, combine});
-    return run(std::array{means, Launch{filter_x_, pixels}, Launch{filter_y_, pixels}, combine});
-}
-
 double SignalFilter::filter() {
-    const uint64_t pixels = pixel_count();
+    constexpr float widths[] = WEDGE_SCALE_WIDTHS;
+    const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
     // Where the samples met the scene is better known now than after the probe.
-    double seconds = run(std::array{Launch{surfaces_kernel_, pixels * WEDGE_SURFACES}});
-    for (uint32_t scale = 0; scale < WEDGE_SCALES; ++scale) seconds += filter_with_scale(scale);
+    double seconds =
+        run(std::array{Launch{surfaces_kernel_, surfaces},
+                       Launch{means_kernel_, surfaces * signals_}, Launch{filter_none_, pixels}});
+    for (int scale = 1; scale < WEDGE_SCALES; ++scale) {
+        filter_x_.setArg(kScaleArg, widths[scale]);
+        filter_y_.setArg(kScaleArg, widths[scale]);
+        filter_y_.setArg(kIndexArg, cl_int(scale));
+        seconds += run(std::array{Launch{filter_x_, pixels}, Launch{filter_y_, pixels}});
+    }
     const Launch guard[] = {
         {guard_errors_, pixels}, {smooth_x_, pixels}, {smooth_y_, pixels}, {choose_, pixels}};
     return seconds + run(guard);

@@ -45,8 +45,8 @@ class SignalFilter {
 
     uint64_t pixel_count() const { return uint64_t(width_) * height_; }
 
-    /// From the probe samples to widths and counts. `goes_on`: more samples will follow, to which the
-    /// probe is the first part. Returns seconds on the device.
+    /// From the probe samples to widths and counts. `goes_on`: more samples will follow, to which
+    /// the probe is the first part. Returns seconds on the device.
     double measure_bandwidth(bool goes_on);
     /// From all samples to filtered light. Returns seconds on the device.
     double filter();
@@ -66,7 +66,6 @@ class SignalFilter {
 
     void allocate(const shared::FilterSettings& settings);
     float mean_brightness();
-    double filter_with_scale(uint32_t index);
     double run(std::span<const Launch> launches);
     void compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats);
     void set_args(uint32_t film_width, uint32_t film_height);
@@ -79,7 +78,7 @@ class SignalFilter {
         reflected_, unfiltered_;
     cl::Buffer surfaces_, found_, sigmas_, means_, filtered_, light_, errors_, smoothed_, guarded_;
     cl::Kernel surfaces_kernel_, distances_kernel_, brightness_kernel_, bandwidth_kernel_,
-        merge_kernel_, means_kernel_, filter_x_, filter_y_, combine_, guard_errors_, smooth_x_,
+        merge_kernel_, means_kernel_, filter_none_, filter_x_, filter_y_, guard_errors_, smooth_x_,
         smooth_y_, choose_;
 };
 

@@ -52,13 +52,19 @@ WEDGE_ASSERT_SIZE(HalfLight, 64);
 
 /* Filters that the guard chooses from, by the share of the width that theory asks for; the first
    leaves each pixel to its own samples. Light is kept at scale * pixels + pixel. */
-#define WEDGE_SCALES 3
+#define WEDGE_SCALES 4
 #define WEDGE_SCALE_WIDTHS \
-    { 0.0f, 0.5f, 1.0f }
+    { 0.0f, 0.25f, 0.5f, 1.0f }
 
-/* Estimated mean square errors, by scale, and their squares. */
+/* What the halves tell of the errors of filters, by scale. */
+typedef struct ScaleErrors {
+    float4 noise; /* mean square, of the mean of both halves */
+    float4 drift; /* square of what the filter adds to the bias of the next narrower one */
+} ScaleErrors;
+WEDGE_ASSERT_SIZE(ScaleErrors, 32);
+
 typedef struct FilterErrors {
-    float4 direct, direct_squared, indirect, indirect_squared;
+    ScaleErrors direct, indirect;
 } FilterErrors;
 WEDGE_ASSERT_SIZE(FilterErrors, 64);
 
