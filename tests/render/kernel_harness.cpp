@@ -52,6 +52,16 @@ std::vector<float4> SamplingKernels::light_points(const std::vector<shared::Ligh
                        uint32_t(lights.size()), from, seed, count);
 }
 
+std::vector<float4> SamplingKernels::angles(const std::vector<float4>& in) {
+    const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "angles");
+    return run<float4>("eval_angles", uint32_t(in.size()), buffer, uint32_t(in.size()));
+}
+
+std::vector<float2> SamplingKernels::inverse_erf(const std::vector<float4>& in) {
+    const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "values");
+    return run<float2>("eval_inverse_erf", uint32_t(in.size()), buffer, uint32_t(in.size()));
+}
+
 std::vector<float2> SamplingKernels::shadow_bandwidth(const std::vector<float4>& in,
                                                       float4 settings) {
     const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "slopes");
