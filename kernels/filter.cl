@@ -53,7 +53,9 @@ inline void filter_line(__constant FilterSettings* settings, __global const Ligh
             if (!(other.position.w > 0.0f) || !is_same_surface(p, other)) continue;
             const float3 d = other.position.xyz - p.position.xyz;
             for (int s = 0; s < WEDGE_SIGNALS; ++s) {
-                const float narrow = (sigma[s] < sigmas[q * WEDGE_SIGNALS + s] * scale ? sigma[s] : sigmas[q * WEDGE_SIGNALS + s] * scale);
+                /* Not fmin, whose rules for NaN cost more. */
+                const float theirs = sigmas[q * WEDGE_SIGNALS + s] * scale;
+                const float narrow = sigma[s] < theirs ? sigma[s] : theirs;
                 if (!(narrow > 0.0f)) continue;
                 const float w = distance_weight(d, narrow, filter_axis(lights, s));
                 if (!(w > 0.0f)) continue;
