@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "host/render/plan.hpp"
 #include "host/render/signal_filter.hpp"
 #include "host/scene/check_scene.hpp"
 #include "wedge/error.hpp"
@@ -96,7 +97,8 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
         (options.time_limit_s || options.target_error) && !options.samples_per_pixel;
     settings.log2_samples =
         open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
-    if (options.method == Method::aaf) {
+    // Where nothing is filtered there are no halves, and all pixels get the same samples.
+    if (make_plan(scene, options.method, settings.bounces).signals > 0) {
         const auto probes = uint32_t(make_filter_settings(scene, options).probe_samples);
         settings.log2_samples = WEDGE_DOUBLING_FROM(std::max(int(std::bit_width(probes)) - 2, 1));
     }

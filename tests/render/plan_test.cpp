@@ -40,6 +40,17 @@ TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
     CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
 }
 
+TEST_CASE("scenes_with_nothing_to_filter_are_plain_monte_carlo") {
+    // Down to the samples: pixels that all get as many need no sequences of their own for halves.
+    Scene scene = make_penumbra(LightProfile::uniform);
+    scene.film = {24, 18};
+    scene.rect_lights.resize(9, scene.rect_lights[0]);
+    RenderOptions options = filtered(1);
+    options.samples_per_pixel = 24;
+    const Image image = render(scene, options).image, plain = render(scene, quick(24, 0)).image;
+    CHECK(channel_values(image, "G") == channel_values(plain, "G"));
+}
+
 TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
     Scene matt = make_room(0), shiny = make_room(20);
     matt.film = shiny.film = {32, 24};
