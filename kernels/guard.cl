@@ -90,27 +90,29 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
     if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
 }
 
-/* Of the square of a drift this many standard errors of its estimate are taken off: where it is a matter of luck
-   which seems better, the filter is the better guess. */
+/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one is chosen, this
+   many standard errors of its estimate are taken off the square of a drift. The error that is told has none taken off. */
 #define WEDGE_BENEFIT_OF_DOUBT 1.0f
+#define WEDGE_NO_DOUBT 0.0f
 
 /* Magnitude of the drift from a filter to a wider one. The halves' drifts have twice the variance of their mean's,
    which is what noise falls by. White noise is averaged over `pixels`; what a filter has made smooth already
    hardly is. */
-inline float certain_drift(float product, float narrow_noise, float wide_noise, float pixels) {
+inline float certain_drift(float product, float narrow_noise, float wide_noise, float pixels,
+                           float benefit) {
     const float doubt =
-        WEDGE_BENEFIT_OF_DOUBT * 2.0f * fmax(narrow_noise - wide_noise, 0.0f) * rsqrt(pixels);
+        benefit * 2.0f * fmax(narrow_noise - wide_noise, 0.0f) * rsqrt(pixels);
     return sqrt(fmax(product - doubt, 0.0f));
 }
 
 /* Mean square errors by scale. */
-inline float4 estimated_errors(ScaleErrors e) {
+inline float4 estimated_errors(ScaleErrors e, float benefit) {
     const float4 n = e.noise;
     float4 bias;
     bias.x = 0.0f;
-    bias.y = certain_drift(e.drift.y, n.x, n.y, WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE);
-    bias.z = bias.y + certain_drift(e.drift.z, n.y, n.z, 1.0f);
-    bias.w = bias.z + certain_drift(e.drift.w, n.z, n.w, 1.0f);
+    bias.y = certain_drift(e.drift.y, n.x, n.y, WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE, benefit);
+    bias.z = bias.y + certain_drift(e.drift.z, n.y, n.z, 1.0f, benefit);
+    bias.w = bias.z + certain_drift(e.drift.w, n.z, n.w, 1.0f, benefit);
     return n + bias * bias;
 }
 
@@ -120,14 +122,16 @@ inline float4 mean_of_halves(__global const float4* light) { return 0.5f * (ligh
    filter and none weighted by the errors is better than both. */
 inline float4 choose(ScaleErrors estimates, __global const float4* light, uint stride, float* error) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
-    const float4 errors = estimated_errors(estimates);
+    const float4 errors = estimated_errors(estimates, WEDGE_BENEFIT_OF_DOUBT);
+    const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT);
     const float by_scale[WEDGE_SCALES] = {errors.x, errors.y, errors.z, errors.w};
+    const float told[WEDGE_SCALES] = {likely.x, likely.y, likely.z, likely.w};
     int best = WEDGE_SCALES - 1;
     for (int k = WEDGE_SCALES - 2; k > 0; --k)
         if (by_scale[k] < by_scale[best]) best = k;
     const float noise = by_scale[0], filter_error = by_scale[best];
     const float share = filter_error > 0.0f ? noise / (noise + filter_error) : 1.0f;
-    *error = share * share * filter_error + (1.0f - share) * (1.0f - share) * noise;
+    *error = share * share * told[best] + (1.0f - share) * (1.0f - share) * noise;
     const float4 none = mean_of_halves(light), filtered = mean_of_halves(light + best * stride);
     return (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share);
 }
@@ -136,7 +140,7 @@ inline float4 choose(ScaleErrors estimates, __global const float4* light, uint s
 inline float4 choose_by_mode(int mode, ScaleErrors estimates, __global const float4* light,
                              uint stride, float4 unfiltered, float* error) {
     if (mode == WEDGE_FILTER_MODE_GUARDED) return choose(estimates, light, stride, error);
-    const float4 errors = estimated_errors(estimates);
+    const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT);
     const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
     *error = plain ? errors.w : errors.x;
     return plain ? (float4)(mean_of_halves(light + (WEDGE_SCALES - 1) * stride).xyz, 1.0f)
