@@ -50,9 +50,7 @@ std::vector<AgreementFiles> check_agreement(const Config& config, const std::str
     const std::string name = fs::path(scene_file).stem().string(), digest = digest_of(scene);
     PeerRuns runs(config, scene, name, digest);
     const std::vector<PeerReference> peers = runs.references(say);
-    const Reference reference = make_reference(
-        scene, {config.references, name, digest, config.reference_spp, config.reference_sampler,
-                config.device, config.kernel_dir, config.stop, say});
+    const Reference reference = make_reference(scene, reference_request(config, name, digest, say));
     std::vector<AgreementFiles> found;
     for (const PeerReference& peer : peers) {
         AgreementFiles files;

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "bench/converge/reference_margin.hpp"
 #include "wedge/error.hpp"
 #include "wedge/image_io.hpp"
 
 namespace wedge::converge {
 namespace {
-
-constexpr double kReferenceMargin = 5;  // times smaller than the smallest error that is plotted
 
 constexpr Metric kMetrics[] = {
     {"rmse", "RMSE", "square root of the mean of (t − r)² over pixels and R, G, B",
@@ -90,11 +89,11 @@ void check_reference(SceneAnalysis& analysis) {
     const double factor = std::pow(kReferenceMargin / std::max(ratio, 0.1), 2);
     analysis.warnings.push_back(fmt::format(
         "{}: the reference's own error is {:.2g}, the smallest plotted {:.2g}, {:.1f} times as "
-        "much "
-        "and not {:g}. The reference's part is subtracted, but --reference-spp {:.0f} would be "
-        "safer.",
+        "much and not {:g}. The reference's part is subtracted, but {:.0f} samples a pixel would "
+        "be safer, which take about {:.0f} s: --reference-time, --reference-limit.",
         analysis.scene->name, analysis.reference_rmse, analysis.smallest_rmse, ratio,
-        kReferenceMargin, std::ceil(double(reference.spp) * factor / 256) * 256));
+        kReferenceMargin, std::ceil(double(reference.spp) * factor / 256) * 256,
+        std::ceil(reference.time_s * factor)));
 }
 
 }  // namespace

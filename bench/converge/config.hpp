@@ -32,14 +32,18 @@ struct Budgets {
 /// Settings that hold for all scenes alike; there are none for a single scene.
 struct Config {
     std::vector<std::string> scenes;  ///< files
-    std::vector<std::string> methods{"mc-sobol", "mc-stratified", "aaf"};
+    std::vector<std::string> methods{"mc-sobol", "mc-hash", "aaf"};
     Budgets budgets;
     int seeds = 3;
     /// "WxH"; "full": the scene's own; "N": the scene's, made smaller so that no side is above N.
     std::string size = "192";
     std::optional<int> bounces;  ///< else the scene's
     int reference_spp = 0;       ///< 0: kReferenceFactor times the largest spp of the ladder
-    Sampler reference_sampler = Sampler::hash;
+    std::optional<Sampler> reference_sampler;  ///< else default_reference_sampler()
+    /// A reference is given more samples until it is kReferenceMargin times better than the best
+    /// run, while it has taken less than this and is below `reference_limit`; 0: never.
+    double reference_time_s = 0;
+    int reference_limit = 65536;   ///< samples per pixel
     std::filesystem::path folder;  ///< of everything that is written; empty: named after the scene
     std::filesystem::path references;  ///< empty: `folder`/references
     std::string device, kernel_dir;
@@ -53,9 +57,15 @@ struct Config {
     const std::atomic<bool>* stop = nullptr;
 };
 
-/// Samples of the reference for each of the longest run: 5 times less error (square root) with some
-/// room for samplers that converge faster than the reference's.
-inline constexpr int kReferenceFactor = 48;
+/// Samples that a reference starts with, for each of the longest run.
+inline constexpr int kReferenceFactor = 16;
+
+/// `reference_time_s` of the command line.
+inline constexpr double kReferenceTime_s = 300;
+
+/// Strata, which leave the least error after as many samples; independent samples if a method runs
+/// with strata, so that a reference shares its sampler with no method it judges.
+Sampler default_reference_sampler(const std::vector<std::string>& methods);
 
 /// Throws Error(usage) that lists the names.
 Sampler parse_reference_sampler(const std::string& name);

@@ -86,6 +86,12 @@ Errors errors_from(const nlohmann::json& o) {
     return e;
 }
 
+double mean_squared_error(const Image& test, const Reference& reference) {
+    const PixelErrors errors = pixel_errors(image::pair_images(test, reference.mean), reference,
+                                            [](double) { return 1.0; });
+    return mean_of(errors.squares) - mean_of(errors.own);
+}
+
 Errors measure_errors(const Image& test, const Reference& reference) {
     const image::ImagePair pair = image::pair_images(test, reference.mean);
     const PixelErrors absolute = pixel_errors(pair, reference, [](double) { return 1.0; });

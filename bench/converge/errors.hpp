@@ -26,6 +26,9 @@ Errors errors_from(const nlohmann::json& object);
 /// Throws Error(bad_input) where sizes differ.
 Errors measure_errors(const Image& test, const Reference& reference);
 
+/// `Errors::mse` alone, which is quick.
+double mean_squared_error(const Image& test, const Reference& reference);
+
 /// Square root for charts; 0 for a mean square that came out negative.
 double root(double mean_square);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -21,12 +22,14 @@ constexpr int kLargestPiece = 256;         // samples per pixel between two visi
 
 constexpr const char* kPieces = "wedge:pieces";
 constexpr const char* kPieceSamples = "wedge:pieceSamples";
+constexpr const char* kTime = "wedge:time_s";
 
 /// Sums of the pieces so far, in double: thousands of samples must not be lost to rounding.
 struct Halves {
     int width = 0, height = 0;
     int pieces = 0;         ///< in both halves together, even ones in the first
     int piece_samples = 0;  ///< per pixel
+    double time_s = 0;
     std::vector<double> sum[2];
     std::vector<double> variance_sum;  ///< of the pieces' means
 };
@@ -68,11 +71,12 @@ Image to_image(const Halves& halves) {
     }
     image.metadata[kPieces] = std::to_string(halves.pieces);
     image.metadata[kPieceSamples] = std::to_string(halves.piece_samples);
+    image.metadata[kTime] = fmt::format("{:.3f}", halves.time_s);
     return image;
 }
 
 Halves empty_halves(const Film& film, int piece_samples) {
-    Halves halves{film.width, film.height, 0, piece_samples, {}, {}};
+    Halves halves{film.width, film.height, 0, piece_samples, 0, {}, {}};
     for (auto* sum : {&halves.sum[0], &halves.sum[1], &halves.variance_sum})
         sum->assign(std::size_t(film.width) * film.height * 3, 0.0);
     return halves;
@@ -89,6 +93,7 @@ std::optional<Halves> read_halves(const fs::path& file, const Film& film, int pi
                           halves.pieces > 0 && halves.pieces % 2 == 0 &&
                           std::stoi(image.metadata.at(kPieceSamples)) == piece_samples;
         if (!fits) return {};
+        if (image.metadata.count(kTime)) halves.time_s = std::stod(image.metadata.at(kTime));
         const double n = halves.pieces;
         add_layer(image, "a.", n / 2, halves.sum[0]);
         add_layer(image, "b.", n / 2, halves.sum[1]);
@@ -123,7 +128,9 @@ RenderOptions piece_options(const ReferenceRequest& request, const Halves& halve
 
 void render_pieces(const Scene& scene, const ReferenceRequest& request, int wanted,
                    const fs::path& file, Halves& halves) {
-    while (halves.pieces < wanted) {
+    double pair_s = halves.pieces ? 2 * halves.time_s / halves.pieces : 0;
+    while (halves.pieces < wanted && !(halves.time_s + pair_s > request.limit_s)) {
+        const auto start = std::chrono::steady_clock::now();
         for (int half = 0; half < 2; ++half) {
             const Frame frame = render(scene, piece_options(request, halves));
             if (frame.stats.interrupted) throw Stopped{};
@@ -131,6 +138,8 @@ void render_pieces(const Scene& scene, const ReferenceRequest& request, int want
                 throw Error(ErrorKind::device, "reference: " + frame.stats.failure);
             add_piece(halves, frame.image);
         }
+        pair_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        halves.time_s += pair_s;
         write_exr(file, to_image(halves));
         if (request.say)
             request.say(fmt::format("reference {}: {} of {} samples per pixel", request.name,
@@ -152,7 +161,9 @@ Reference make_reference(const Scene& scene, const ReferenceRequest& request) {
     fs::create_directories(request.folder);
     // Pieces do not depend on the samples asked for, so that more can be added; only short
     // references have short ones.
-    const int piece_samples = std::clamp((request.spp + 1) / 2, 1, kLargestPiece);
+    const int piece_samples = request.piece_samples
+                                  ? request.piece_samples
+                                  : std::clamp((request.spp + 1) / 2, 1, kLargestPiece);
     const int wanted = 2 * int(std::ceil(request.spp / (2.0 * piece_samples)));
     const std::string stem = fmt::format("{}-{}-{}-{}", request.name, request.scene_digest,
                                          to_string(request.sampler), piece_samples);
@@ -165,6 +176,8 @@ Reference make_reference(const Scene& scene, const ReferenceRequest& request) {
     Reference reference{select_rgb(image, ""), select_rgb(image, "a."), select_rgb(image, "b."),
                         select_rgb(image, "variance.")};
     reference.spp = uint64_t(halves.pieces) * uint64_t(halves.piece_samples);
+    reference.piece_samples = piece_samples;
+    reference.time_s = halves.time_s;
     reference.id = fmt::format("{}-{}", stem, halves.pieces);
     reference.sampler = to_string(request.sampler);
     reference.file = file;

@@ -2,6 +2,7 @@
 // difference tells how far the reference itself is from the truth.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,11 +13,13 @@
 namespace wedge::converge {
 
 struct Reference {
-    Image mean;            ///< R, G, B: of both halves
-    Image half_a, half_b;  ///< R, G, B
-    Image variance;        ///< R, G, B: of `mean`, as if samples were independent
-    uint64_t spp = 0;      ///< samples per pixel of `mean`
-    std::string id;        ///< names file and samples; results computed with it are kept under it
+    Image mean;             ///< R, G, B: of both halves
+    Image half_a, half_b;   ///< R, G, B
+    Image variance;         ///< R, G, B: of `mean`, as if samples were independent
+    uint64_t spp = 0;       ///< samples per pixel of `mean`
+    int piece_samples = 0;  ///< it is made of renders with so many samples per pixel
+    double time_s = 0;      ///< that these have taken, whenever that was
+    std::string id;         ///< names file and samples; results computed with it are kept under it
     std::string sampler;
     std::filesystem::path file;
 };
@@ -33,8 +36,11 @@ double mean_squared_error_of(const Reference& reference);
 struct ReferenceRequest {
     std::filesystem::path folder;
     std::string name, scene_digest;
-    int spp = 0;  ///< at least
+    int spp = 0;  ///< at least, unless `limit_s` is reached
     Sampler sampler = Sampler::hash;
+    int piece_samples = 0;  ///< of the reference that is to have more; 0: by `spp`
+    /// No further samples if the reference would have taken more than this.
+    double limit_s = INFINITY;
     std::string device, kernel_dir;
     const std::atomic<bool>* stop = nullptr;
     std::function<void(const std::string&)> say;

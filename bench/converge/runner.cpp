@@ -11,6 +11,7 @@
 #include "bench/converge/identity.hpp"
 #include "bench/converge/method_run.hpp"
 #include "bench/converge/peer_runs.hpp"
+#include "bench/converge/reference_margin.hpp"
 #include "bench/peers/scene_export.hpp"
 #include "host/device/device.hpp"
 #include "wedge/error.hpp"
@@ -239,6 +240,21 @@ Scene scene_to_measure(const Config& config, const std::string& scene_file, cons
     return scene;
 }
 
+ReferenceRequest reference_request(const Config& config, const std::string& name,
+                                   const std::string& digest, const Say& say) {
+    ReferenceRequest request;
+    request.folder = config.references;
+    request.name = name;
+    request.scene_digest = digest;
+    request.spp = config.reference_spp;
+    request.sampler = config.reference_sampler.value_or(default_reference_sampler(config.methods));
+    request.device = config.device;
+    request.kernel_dir = config.kernel_dir;
+    request.stop = config.stop;
+    request.say = say;
+    return request;
+}
+
 SceneRuns run_scene(const Config& config, const std::string& scene_file, const LoadOptions& load,
                     const Say& say) {
     const Scene scene = scene_to_measure(config, scene_file, load, say);
@@ -253,10 +269,16 @@ SceneRuns run_scene(const Config& config, const std::string& scene_file, const L
     out.exposure = scene.defaults.exposure;
     for (const Instance& instance : scene.instances)
         out.triangles += scene.meshes[instance.mesh].triangles.size();
-    out.reference = make_reference(
-        scene, {config.references, out.name, out.digest, config.reference_spp,
-                config.reference_sampler, config.device, config.kernel_dir, config.stop, say});
+    ReferenceRequest request = reference_request(config, out.name, out.digest, say);
+    out.reference = make_reference(scene, request);
     SceneRunner(config, scene, out, say).run_missing();
+    request.piece_samples = out.reference.piece_samples;
+    request.limit_s = config.reference_time_s;
+    const auto more = [&](uint64_t spp) {
+        request.spp = int(spp);
+        return make_reference(scene, request);
+    };
+    improve_reference(config, out.runs, more, say, out.reference);
     return out;
 }
 

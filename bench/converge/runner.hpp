@@ -30,6 +30,10 @@ using Say = std::function<void(const std::string&)>;
 Scene scene_to_measure(const Config& config, const std::string& scene_file, const LoadOptions& load,
                        const Say& say);
 
+/// What `config` asks of the reference of a scene.
+ReferenceRequest reference_request(const Config& config, const std::string& name,
+                                   const std::string& digest, const Say& say);
+
 /// Runs of different methods alternate, so that a slow moment of the machine meets all. Finished
 /// runs are lines of `folder`/runs.jsonl and images in `folder`/images; those that are there and
 /// were made by this program on this device are not made again. Throws Stopped, Error.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "bench/converge/reference_margin.hpp"
 #include "bench/converge/session.hpp"
 #include "host/cli/asset_paths.hpp"
 #include "host/cli/commands.hpp"
@@ -21,7 +22,8 @@ struct ConvergeArguments {
     std::vector<std::string> scenes, methods, budgets, asset_paths;
     std::string config_file, size, folder, references, reference_sampler, device, kernel_dir, title;
     std::string markdown;
-    std::optional<int> seeds, bounces, reference_spp;
+    std::optional<int> seeds, bounces, reference_spp, reference_limit;
+    std::optional<double> reference_time_s;
     bool short_form = false, any_build = false;
 };
 
@@ -41,6 +43,8 @@ std::string command_line(const ConvergeArguments& a) {
     if (a.bounces) add(fmt::format("--bounces {}", *a.bounces));
     if (a.reference_spp) add(fmt::format("--reference-spp {}", *a.reference_spp));
     add_option("--reference-sampler", a.reference_sampler);
+    if (a.reference_time_s) add(fmt::format("--reference-time {:g}", *a.reference_time_s));
+    if (a.reference_limit) add(fmt::format("--reference-limit {}", *a.reference_limit));
     add_option("--device", a.device);
     add_option("--kernel-dir", a.kernel_dir);
     if (a.any_build) add("--any-build");
@@ -49,6 +53,7 @@ std::string command_line(const ConvergeArguments& a) {
 
 converge::Config make_config(const ConvergeArguments& a) {
     converge::Config config;
+    config.reference_time_s = converge::kReferenceTime_s;
     if (!a.config_file.empty())
         converge::read_config(a.config_file, a.short_form, config);
     else if (a.short_form)
@@ -60,6 +65,8 @@ converge::Config make_config(const ConvergeArguments& a) {
     if (!a.size.empty()) config.size = a.size;
     if (a.bounces) config.bounces = *a.bounces;
     if (a.reference_spp) config.reference_spp = *a.reference_spp;
+    if (a.reference_time_s) config.reference_time_s = *a.reference_time_s;
+    if (a.reference_limit) config.reference_limit = *a.reference_limit;
     if (!a.reference_sampler.empty())
         config.reference_sampler = converge::parse_reference_sampler(a.reference_sampler);
     config.folder = a.folder;
@@ -100,9 +107,9 @@ void register_bench_converge(CLI::App& bench) {
                         "What to measure, as JSON (docs/bench.md); options go before it");
     command->add_flag("--short", a->short_form, "The configuration's short form");
     command
-        ->add_option("--methods", a->methods,
-                     "Separated by commas: " + converge::method_names() +
-                         "; default: mc-sobol,mc-stratified,aaf")
+        ->add_option(
+            "--methods", a->methods,
+            "Separated by commas: " + converge::method_names() + "; default: mc-sobol,mc-hash,aaf")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
@@ -116,10 +123,19 @@ void register_bench_converge(CLI::App& bench) {
     command->add_option("--bounces", a->bounces, "Indirect bounces; default: the scene's");
     command->add_option(
         "--reference-spp", a->reference_spp,
-        fmt::format("Samples per pixel of the reference; default: {} times the largest budget",
+        fmt::format("Samples per pixel the reference starts with; default: {} times the largest "
+                    "budget",
                     converge::kReferenceFactor));
     command->add_option("--reference-sampler", a->reference_sampler,
-                        "Of the reference: hash, sobol or stratified; default: hash");
+                        "Of the reference: hash, sobol or stratified; default: stratified, or hash "
+                        "if a method runs with strata");
+    command->add_option(
+        "--reference-time", a->reference_time_s,
+        fmt::format("The reference gets more samples until it is {:g} times better than the best "
+                    "run, while it has taken less than so many seconds; 0: never; default: {:g}",
+                    converge::kReferenceMargin, converge::kReferenceTime_s));
+    command->add_option("--reference-limit", a->reference_limit,
+                        "Most samples per pixel it gets so; default: 65536");
     command->add_option("-o,--output", a->folder,
                         "Folder of runs and report; default: converge-SCENE");
     command->add_option("--references", a->references,

@@ -24,7 +24,8 @@ struct PeersArguments {
     std::vector<std::string> scenes, renderers{"mitsuba"}, methods{"mc-sobol", "aaf"};
     std::vector<std::string> budgets, asset_paths;
     std::string size, folder, references, device, kernel_dir, python = "python3", title;
-    std::optional<int> seeds, bounces, reference_spp;
+    std::optional<int> seeds, bounces, reference_spp, reference_limit;
+    double reference_time_s = converge::kReferenceTime_s;
     bool check = false, export_only = false, any_build = false;
 };
 
@@ -60,6 +61,10 @@ converge::Config make_config(const PeersArguments& a) {
     if (!a.size.empty()) config.size = a.size;
     if (a.bounces) config.bounces = *a.bounces;
     if (a.reference_spp) config.reference_spp = *a.reference_spp;
+    if (a.reference_limit) config.reference_limit = *a.reference_limit;
+    config.reference_time_s = a.reference_time_s;
+    // Samples of the check have to be independent, for its variances are those of such.
+    if (a.check) config.reference_sampler = Sampler::hash;
     config.folder = a.folder;
     if (config.folder.empty())
         config.folder = a.scenes.size() == 1
@@ -145,6 +150,9 @@ void register_bench_peers(CLI::App& bench) {
     command->add_option("--bounces", a->bounces, "Indirect bounces; default: the scene's");
     command->add_option("--reference-spp", a->reference_spp,
                         "Samples per pixel of each renderer's converged image");
+    command->add_option("--reference-time", a->reference_time_s,
+                        "As for `bench converge`; only Wedge's own grows");
+    command->add_option("--reference-limit", a->reference_limit, "As for `bench converge`");
     command->add_option("-o,--output", a->folder, "Folder; default: peers-SCENE");
     command->add_option("--references", a->references,
                         "Folder of converged images, to share them; default: that of --output");

@@ -136,7 +136,11 @@ TEST_CASE("a_reference_takes_more_samples_without_losing_those_it_has") {
     const TemporaryFolder folder;
     Scene scene = load_scene(std::string(WEDGE_SOURCE_DIR) + "/scenes/grids.json", {});
     scene.film = {24, 18};
-    ReferenceRequest request{folder.path(), "grids", "digest", 512};
+    ReferenceRequest request;
+    request.folder = folder.path();
+    request.name = "grids";
+    request.scene_digest = "digest";
+    request.spp = 512;
     const Reference first = make_reference(scene, request);
     CHECK(first.spp == 512);
     request.spp = 1024;
