@@ -33,9 +33,10 @@ void aaf(RenderOptions& o) {
     o.sampler = kSampler;
 }
 
-constexpr Method peer(const char* name, const char* label, const char* script) {
-    return {name, label,   Knob::spp, false, monte_carlo<Sampler::hash>,
-            {},   nullptr, nullptr,   script};
+constexpr Method peer(const char* name, const char* label, const char* script,
+                      bool lambert_only = false) {
+    return {name, label,   Knob::spp, false,  monte_carlo<Sampler::hash>,
+            {},   nullptr, nullptr,   script, lambert_only};
 }
 
 // The first unbiased method of a comparison is its yardstick.
@@ -77,6 +78,8 @@ constexpr Method kMethods[] = {
      aaf<FilterMode::guarded, false>},
     peer("mitsuba", "Mitsuba 3, independent samples", "mitsuba_peer.py"),
     peer("mitsuba-multijitter", "Mitsuba 3, correlated multi-jittered samples", "mitsuba_peer.py"),
+    peer("cycles", "Cycles, tabulated Sobol", "cycles_peer.py", true),
+    peer("luxcore", "LuxCore, Sobol", "luxcore_peer.py", true),
 };
 
 const char* name_of(wedge::Method method) {

@@ -28,6 +28,7 @@ struct Method {
     /// Another renderer, driven by this script of bench/peers; it has no rays to count, and no
     /// estimates of variance. `configure` is of no use then.
     const char* peer_script = nullptr;
+    bool lambert_only = false;  ///< a peer without counterparts of our lobes and smooth normals
 };
 
 std::span<const Method> all_methods();

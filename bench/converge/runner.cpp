@@ -234,9 +234,13 @@ Scene scene_to_measure(const Config& config, const std::string& scene_file, cons
     Scene scene = load_scene(scene_file, load);
     scene.film = film_for(config.size, scene.film);
     if (config.bounces) scene.defaults.bounces = *config.bounces;
-    if (std::any_of(config.methods.begin(), config.methods.end(),
-                    [](const std::string& name) { return find_method(name).peer_script; }))
-        for (const std::string& line : peers::simplify_for_peers(scene)) say(line);
+    bool any_peer = false, lambert_only = false;
+    for (const std::string& name : config.methods) {
+        any_peer = any_peer || find_method(name).peer_script;
+        lambert_only = lambert_only || find_method(name).lambert_only;
+    }
+    if (any_peer)
+        for (const std::string& line : peers::simplify_for_peers(scene, lambert_only)) say(line);
     return scene;
 }
 

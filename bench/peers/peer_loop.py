@@ -9,7 +9,8 @@
         -> as 16 independent images of 4 samples: R, G, B of their mean, and the three variances of the mean
 
 An answer {"error": text} says that it could not be done. The end of stdin ends the program. Whatever a renderer
-prints goes to stderr.
+prints goes to stderr, from the moment this module is imported: some print while they are imported, so this one
+comes first.
 """
 
 import json
@@ -18,6 +19,9 @@ import sys
 import traceback
 
 import numpy as np
+
+ANSWERS = os.fdopen(os.dup(1), "w")
+os.dup2(2, 1)
 
 
 def split(total, largest):
@@ -57,8 +61,6 @@ def render(peer, request):
 
 
 def serve(peer):
-    answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)
     for line in sys.stdin:
         try:
             request = json.loads(line)
@@ -69,5 +71,5 @@ def serve(peer):
         except Exception as error:
             traceback.print_exc()
             answer = {"error": "%s: %s" % (type(error).__name__, error)}
-        answers.write(json.dumps(answer) + "\n")
-        answers.flush()
+        ANSWERS.write(json.dumps(answer) + "\n")
+        ANSWERS.flush()

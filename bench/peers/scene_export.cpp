@@ -129,12 +129,24 @@ ordered_json export_rects(const Scene& scene, const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::string> simplify_for_peers(Scene& scene) {
+std::vector<std::string> simplify_for_peers(Scene& scene, bool lambert_only) {
     std::vector<std::string> taken;
+    const auto tell = [&](const std::string& name, const char* what) {
+        taken.push_back(fmt::format("{}: {} left out on both sides", name, what));
+    };
     for (Material& m : scene.materials) {
-        if (m.normal_texture < 0 && m.bump_texture < 0) continue;
-        taken.push_back(m.name + ": its normal or bump map is left out on both sides");
+        if (m.normal_texture >= 0 || m.bump_texture >= 0) tell(m.name, "its normal or bump map is");
         m.normal_texture = m.bump_texture = -1;
+        if (!lambert_only || m.model == SpecularModel::none) continue;
+        if (m.specular != Vec3(0)) tell(m.name, "its specular lobe is");
+        m.model = SpecularModel::none;
+        m.specular = Vec3(0);
+        m.specular_texture = -1;
+    }
+    for (Mesh& mesh : scene.meshes) {
+        if (!lambert_only || mesh.normals.empty()) continue;
+        tell(mesh.name, "its interpolated normals are");
+        mesh.normals.clear();
     }
     return taken;
 }

@@ -10,9 +10,10 @@
 
 namespace wedge::peers {
 
-/// Takes away what no peer has a counterpart for, so that both sides render the same: normal and
-/// bump maps. Returns what was taken away, for people; empty if nothing was.
-std::vector<std::string> simplify_for_peers(Scene& scene);
+/// Takes away what a peer has no counterpart for, so that both sides render the same: normal and
+/// bump maps, and with `lambert_only` specular lobes and interpolated normals too. Returns what was
+/// taken away, by name, for people; empty if nothing was.
+std::vector<std::string> simplify_for_peers(Scene& scene, bool lambert_only = false);
 
 /// Writes `folder`/scene.json, meshes/*.ply (one for each material, flat and smooth faces apart)
 /// and textures/*.exr (linear, times the material's constant, in [0, that] for reflectances).

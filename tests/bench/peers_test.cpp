@@ -112,6 +112,59 @@ Scene small_scene() {
     return scene;
 }
 
+/// For renderers without lobes: the floor has four texels of different colours, and there is a sky.
+Scene lambert_scene() {
+    Scene scene = small_scene();
+    peers::simplify_for_peers(scene, true);
+    scene.background = {0.2f, 0.1f, 0.4f};
+    scene.defaults.bounces = 2;
+    scene.meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const std::vector<uint8_t> texels = {255, 0, 0,   255, 0,   255, 0,   255,
+                                         0,   0, 255, 255, 255, 255, 255, 255};
+    scene.textures = {{.name = "t", .image = {2, 2, TextureFormat::linear8, texels}}};
+    scene.materials[0].diffuse_texture = 0;
+    return scene;
+}
+
+/// Mean of a quarter of the image.
+double mean_of_quarter(const Image& image, int right, int below, int channel) {
+    const int w = image.width / 2, h = image.height / 2;
+    double sum = 0;
+    for (int y = 0; y < h; ++y)
+        for (int x = 0; x < w; ++x)
+            sum += double(image.at(right * w + x, below * h + y, channel)) / (w * h);
+    return sum;
+}
+
+/// Its picture of the Lambert scene is ours: right way up, in the same colours, of the same light.
+void check_peer_renders_as_we_do(const char* script, const char* method) {
+    const Scene scene = lambert_scene();
+    const TemporaryFolder folder;
+    peers::export_scene(scene, folder.path());
+    peers::Peer peer("python3", script, method, folder.path());
+    const auto theirs = peer.render(1024, 1, 4);
+    CHECK(theirs.samples == 1024 * 16 * 12);
+    CHECK(theirs.render_s > 0);
+    CHECK(theirs.image.channel("variance.B") == 5);
+    RenderOptions options;
+    options.method = wedge::Method::mc;
+    options.samples_per_pixel = 1024;
+    const Image ours = render(scene, options).image;
+    for (int quarter = 0; quarter < 4; ++quarter)
+        for (int c = 0; c < 3; ++c) {
+            CAPTURE(quarter);
+            CAPTURE(c);
+            CHECK(
+                mean_of_quarter(theirs.image, quarter % 2, quarter / 2, c) ==
+                doctest::Approx(mean_of_quarter(ours, quarter % 2, quarter / 2, c)).epsilon(0.02));
+        }
+    // Other samples and other seeds are other images.
+    const Image few = peer.render(1, 1).image, more = peer.render(16, 1).image,
+                other = peer.render(16, 2).image;
+    CHECK(few.pixels != more.pixels);
+    CHECK(other.pixels != more.pixels);
+}
+
 }  // namespace
 
 TEST_CASE("every_scene_is_exported_whole") {
@@ -190,6 +243,37 @@ TEST_CASE("normal_maps_are_taken_away_by_name") {
     CHECK(peers::simplify_for_peers(scene).empty());
 }
 
+TEST_CASE("lobes_and_smooth_normals_are_taken_away_by_name_for_those_without") {
+    Scene scene = small_scene();
+    scene.meshes[0].normals.assign(4, Vec3(0, 1, 0));
+    CHECK(peers::simplify_for_peers(scene).empty());
+    CHECK(scene.materials[0].model == SpecularModel::blinn_phong);
+    const auto taken = peers::simplify_for_peers(scene, true);
+    REQUIRE(taken.size() == 2);
+    CHECK(taken[0] == "floor: its specular lobe is left out on both sides");
+    CHECK(taken[1] == "floor: its interpolated normals are left out on both sides");
+    CHECK(scene.materials[0].model == SpecularModel::none);
+    CHECK(scene.materials[0].diffuse == Vec3(0.4f));
+    CHECK(scene.meshes[0].normals.empty());
+}
+
+TEST_CASE("exporters_for_cycles_and_luxcore_write_what_the_scene_says") {
+    if (!succeeds("python3 -c 'import json, struct'")) {
+        MESSAGE(
+            "exporters_for_cycles_and_luxcore_write_what_the_scene_says is skipped: there is no "
+            "python3");
+        return;
+    }
+    const TemporaryFolder lambert, glossy;
+    peers::export_scene(lambert_scene(), lambert.path());
+    Scene scene = small_scene();
+    scene.meshes[0].normals.assign(4, Vec3(0, 1, 0));
+    peers::export_scene(scene, glossy.path());
+    CHECK(succeeds("python3 '" WEDGE_SOURCE_DIR "/tests/bench/exporters_check.py' '" +
+                   peers::peers_folder().string() + "' '" + lambert.path().string() + "' '" +
+                   glossy.path().string() + "'"));
+}
+
 TEST_CASE("agreement_sees_a_bias_and_none_in_noise") {
     const double variance = 1e-2;
     Synthetic ours(64, 64, 1), same(64, 64, 2), other(64, 64, 3);
@@ -234,4 +318,20 @@ TEST_CASE("mitsuba_renders_an_exported_scene") {
     // The floor under the light, and the sky, which is black.
     CHECK(rendered.image.at(8, 7, 0) > 0.05f);
     CHECK(rendered.image.at(8, 0, 0) == 0);
+}
+
+TEST_CASE("cycles_renders_an_exported_scene_as_we_do") {
+    if (!succeeds("python3 -c 'import bpy, numpy'")) {
+        MESSAGE("cycles_renders_an_exported_scene_as_we_do is skipped: python3 has no bpy");
+        return;
+    }
+    check_peer_renders_as_we_do("cycles_peer.py", "cycles");
+}
+
+TEST_CASE("luxcore_renders_an_exported_scene_as_we_do") {
+    if (!succeeds("python3 -c 'import pyluxcore, numpy'")) {
+        MESSAGE("luxcore_renders_an_exported_scene_as_we_do is skipped: python3 has no pyluxcore");
+        return;
+    }
+    check_peer_renders_as_we_do("luxcore_peer.py", "luxcore");
 }
