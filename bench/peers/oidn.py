@@ -14,6 +14,7 @@ of a run is that of the render and of the filter together: the median of three f
 that is not counted because it sets the filter up for this size.
 """
 
+import importlib.metadata
 import json
 import os
 import statistics
@@ -73,7 +74,7 @@ def denoise(colour, albedo, normal):
 
 
 def denoised_record(record, image, seconds):
-    version = getattr(pyoidn, "__version__", "")
+    version = importlib.metadata.version("pyoidn")
     made = dict(record)
     made["key"] = record["key"] + "-oidn"
     made["method"] = METHOD
