@@ -93,9 +93,21 @@ std::string browse(const TemporaryFolder& folder, const std::string& arguments) 
     const std::string command =
         "timeout 60 " + find_chromium() +
         " --headless=new --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir='" +
-        (folder / "profile").string() + "' " + arguments + " > '" + out + "' 2> /dev/null";
+        (folder / "profile").string() + "' " + arguments + " > '" + out + "' 2> '" +
+        (folder / "stderr").string() + "'";
     CHECK(std::system(command.c_str()) == 0);
     return read_text(out);
+}
+
+/// Lines that Chromium's console shows of a page: scripts that fail, resources that are missing.
+std::size_t console_lines(const TemporaryFolder& folder, const std::string& html) {
+    std::ofstream(folder / "page.html") << html;
+    browse(folder, "--enable-logging=stderr --virtual-time-budget=5000 --dump-dom 'file://" +
+                       (folder / "page.html").string() + "'");
+    const std::string log = read_text(folder / "stderr");
+    std::size_t lines = 0;
+    for (std::size_t at = 0; (at = log.find("CONSOLE", at)) != log.npos; ++at) ++lines;
+    return lines;
 }
 
 }  // namespace
@@ -228,6 +240,31 @@ TEST_CASE("report_shows_in_a_browser_light_and_dark") {
     }
     CHECK(brightness[0] > 0.6);
     CHECK(brightness[1] < 0.3);
+}
+
+TEST_CASE("report_renders_its_text_and_nothing_on_the_console") {
+    if (find_chromium().empty()) {
+        MESSAGE(
+            "report_renders_its_text_and_nothing_on_the_console is skipped: there is no Chromium");
+        return;
+    }
+    const TemporaryFolder folder;
+    CHECK(console_lines(folder, "<script>console.error('seen')</script>") == 1);
+    CHECK(console_lines(folder, report_text()) == 0);
+    // What is laid out, not what is in the file: only the test needs a script.
+    std::ofstream(folder / "report.html") << report_text();
+    std::ofstream(folder / "text.html")
+        << "<iframe id='f' src='report.html' style='width:900px;height:700px'></iframe><pre></pre>"
+           "<script>window.onload=()=>{document.querySelector('pre').textContent="
+           "document.getElementById('f').contentDocument.body.innerText}</script>";
+    const std::string text = browse(
+        folder, "--allow-file-access-from-files --virtual-time-budget=5000 --dump-dom 'file://" +
+                    (folder / "text.html").string() + "'");
+    for (const char* part : {"Error against time", "Summary", "grids", "mc-hash", "Equal time",
+                             "How it was measured", "samples a pixel"}) {
+        CAPTURE(part);
+        CHECK(text.find(part) != std::string::npos);
+    }
 }
 
 TEST_CASE("report_is_no_wider_than_a_phone") {
