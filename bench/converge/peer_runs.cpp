@@ -57,12 +57,12 @@ PeerReference PeerRuns::reference(const Method& method,
     PeerReference reference{&method, "", {}, spp};
     if (std::filesystem::exists(file)) {
         reference.image = read_image(file);
-        reference.version = reference.image.metadata["renderer"];
+        reference.version = reference.image.metadata["wedge:renderer"];
         return reference;
     }
     say(fmt::format("{}: reference by {}, {} samples a pixel", name_, method.name, spp));
     reference.image = peer_of(method).render(spp, kReferenceSeed, kReferenceParts).image;
-    reference.version = reference.image.metadata["renderer"];
+    reference.version = reference.image.metadata["wedge:renderer"];
     std::filesystem::create_directories(config_.references);
     write_exr(file, reference.image);
     return reference;

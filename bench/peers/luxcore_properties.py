@@ -93,8 +93,8 @@ def scene_properties(exported, folder):
 
 
 def render_properties(exported):
-    """LuxCore counts the vertices of a path after the camera; no Russian roulette, clamping, filter or tone map."""
-    depth = exported["bounces"] + 1
+    """LuxCore counts the edges of a path, as Mitsuba does; no Russian roulette, clamping, filter or tone map."""
+    depth = exported["bounces"] + 2
     return {
         "renderengine.type": "PATHCPU",
         "path.pathdepth.total": depth,

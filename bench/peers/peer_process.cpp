@@ -136,7 +136,7 @@ Peer::Rendered Peer::render(int spp, uint32_t seed, int parts) {
     image.channels = {"R", "G", "B"};
     if (parts > 1)
         image.channels.insert(image.channels.end(), {"variance.R", "variance.G", "variance.B"});
-    image.metadata["renderer"] = version_;
+    image.metadata["wedge:renderer"] = version_;
     image.pixels.resize(std::size_t(image.width) * image.height * image.channels.size());
     std::ifstream in(pixels_, std::ios::binary);
     const auto bytes = std::streamsize(image.pixels.size() * sizeof(float));

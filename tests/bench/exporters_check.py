@@ -21,9 +21,9 @@ def check_surfaces(exported):
     floor, light = exported_scene.surfaces(exported, lambert)
     name, surface, positions, uvs, triangles = floor
     assert name == "mesh0" and surface["name"] == "floor"
-    assert positions == [(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)], positions
-    assert uvs == [(0, 0), (1, 0), (1, 1), (0, 1)], uvs
-    assert triangles == [(0, 1, 2), (0, 2, 3)], triangles
+    assert positions == [(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1), (-1, 2, -1), (-1, 2, 1)], positions
+    assert uvs == [(0, 0), (1, 0), (1, 1), (0, 1), (1, 1), (0, 1)], uvs
+    assert triangles == [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)], triangles
     name, surface, positions, uvs, triangles = light
     assert name == "light0" and surface["kd"] == [0, 0, 0]
     assert surface["emission_image"]["file"] == "textures/light0.exr"
@@ -56,7 +56,7 @@ def check_luxcore(exported):
     assert scene["scene.materials.light0.emission"] == "light0_emission"
     assert close(scene["scene.lights.sky.color"], [0.2, 0.1, 0.4])
     render = luxcore_properties.render_properties(exported)
-    assert render["path.pathdepth.total"] == 3  # two indirect bounces
+    assert render["path.pathdepth.total"] == 3  # one indirect bounce
 
 
 def check_refusal():

@@ -117,8 +117,14 @@ Scene lambert_scene() {
     Scene scene = small_scene();
     peers::simplify_for_peers(scene, true);
     scene.background = {0.2f, 0.1f, 0.4f};
-    scene.defaults.bounces = 2;
-    scene.meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.materials[0].diffuse = Vec3(0.9f);
+    scene.defaults.bounces = 1;
+    // A wall beside it makes bounces count.
+    Mesh& mesh = scene.meshes[0];
+    mesh.positions.insert(mesh.positions.end(), {{-1, 2, 1}, {-1, 2, -1}});
+    mesh.triangles.insert(mesh.triangles.end(), {{0, 3, 5}, {0, 5, 4}});
+    mesh.material_of.assign(4, 0);
+    mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 1}, {1, 1}};
     const std::vector<uint8_t> texels = {255, 0, 0,   255, 0,   255, 0,   255,
                                          0,   0, 255, 255, 255, 255, 255, 255};
     scene.textures = {{.name = "t", .image = {2, 2, TextureFormat::linear8, texels}}};
