@@ -39,8 +39,8 @@ struct Rung {
     std::optional<Split> split;
 
     /// Share of 16 x 16 blocks with a larger mean squared error than the yardstick would have in
-    /// the same time, with more than twice that, and with more than 1.1 times its RMSE.
-    double blocks_worse = 0, blocks_twice = 0, blocks_tenth = 0;
+    /// the same time, and with more than twice that.
+    double blocks_worse = 0, blocks_twice = 0;
 };
 
 /// Is the mean of an unfiltered method the reference's? All its runs are pooled; blocks of 8 x 8.

@@ -1,87 +1,86 @@
-// Where a method is worse than plain Monte Carlo in the same time: a mean over the image hides it.
+#include "bench/converge/blocks.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "bench/converge/analysis.hpp"
 
 namespace wedge::converge {
 namespace {
 
 constexpr int kBlock_px = 16;
-constexpr double kClearly = 2;        // times the mean squared error
-constexpr double kTenth = 1.1 * 1.1;  // a tenth more, as RMSE
-constexpr double kRounding = 1e-4;    // of the image's mean: smaller errors are none
+constexpr double kClearly = 2;      // times the mean squared error
+constexpr double kRounding = 1e-4;  // of the image's mean: smaller errors are none
 
-/// Mean squared error by block, over the seeds of a rung.
-std::vector<double> block_errors(const Reference& reference, const Rung& rung) {
-    const int width = reference.mean.width, height = reference.mean.height;
-    const int across = (width + kBlock_px - 1) / kBlock_px;
-    const int down = (height + kBlock_px - 1) / kBlock_px;
-    std::vector<double> sums(std::size_t(across) * down, 0.0), counts(sums.size(), 0.0);
+/// Over the seeds of a rung.
+BlockErrors mean_block_errors(const Reference& reference, const Rung& rung) {
+    BlockErrors mean;
     for (const Image* image : rung.images) {
-        const std::vector<double> map = squared_error_map(*image, reference);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                const auto block = std::size_t(y / kBlock_px * across + x / kBlock_px);
-                sums[block] += map[std::size_t(y) * width + x];
-                counts[block] += 1;
-            }
+        const BlockErrors errors = block_errors(reference, *image);
+        mean.resize(errors.size(), 0.0);
+        for (std::size_t i = 0; i < errors.size(); ++i)
+            mean[i] += errors[i] / double(rung.images.size());
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= counts[i];
-    return sums;
-}
-
-/// Error times time of the yardstick, by block. Its error falls as 1 / time, so that this changes
-/// little from rung to rung: it is interpolated between rungs and kept beyond them.
-struct YardstickRung {
-    double log_time;
-    std::vector<double> error_times_time;
-};
-
-double expected_error(const std::vector<YardstickRung>& rungs, std::size_t block, double time) {
-    const double at = std::log(time);
-    std::size_t next = 0;
-    while (next < rungs.size() && rungs[next].log_time < at) ++next;
-    if (next == 0) return rungs.front().error_times_time[block] / time;
-    if (next == rungs.size()) return rungs.back().error_times_time[block] / time;
-    const YardstickRung &a = rungs[next - 1], &b = rungs[next];
-    const double share = (at - a.log_time) / (b.log_time - a.log_time);
-    return ((1 - share) * a.error_times_time[block] + share * b.error_times_time[block]) / time;
-}
-
-/// Mean squared error that rounding may make.
-double smallest_that_counts(const Image& reference) {
-    double sum = 0;
-    for (float value : reference.pixels) sum += double(value);
-    const double mean = sum / double(std::max<std::size_t>(reference.pixels.size(), 1));
-    return kRounding * kRounding * mean * mean;
+    return mean;
 }
 
 }  // namespace
 
+BlockErrors block_errors(const Reference& reference, const Image& image) {
+    const int width = reference.mean.width, height = reference.mean.height;
+    const int across = (width + kBlock_px - 1) / kBlock_px;
+    const int down = (height + kBlock_px - 1) / kBlock_px;
+    BlockErrors sums(std::size_t(across) * down, 0.0), counts(sums.size(), 0.0);
+    const std::vector<double> map = squared_error_map(image, reference);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto block = std::size_t(y / kBlock_px * across + x / kBlock_px);
+            sums[block] += map[std::size_t(y) * width + x];
+            counts[block] += 1;
+        }
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= counts[i];
+    return sums;
+}
+
+void BlockErrorsOverTime::add(double time_s, BlockErrors errors) {
+    for (double& value : errors) value *= time_s;
+    const double log_time = std::log(time_s);
+    const auto later = std::find_if(measured_.begin(), measured_.end(),
+                                    [&](const Measured& m) { return m.log_time > log_time; });
+    measured_.insert(later, {log_time, std::move(errors)});
+}
+
+double BlockErrorsOverTime::at(std::size_t block, double time_s) const {
+    const double log_time = std::log(time_s);
+    std::size_t next = 0;
+    while (next < measured_.size() && measured_[next].log_time < log_time) ++next;
+    if (next == 0) return measured_.front().error_times_time[block] / time_s;
+    if (next == measured_.size()) return measured_.back().error_times_time[block] / time_s;
+    const Measured &a = measured_[next - 1], &b = measured_[next];
+    const double share = (log_time - a.log_time) / (b.log_time - a.log_time);
+    return ((1 - share) * a.error_times_time[block] + share * b.error_times_time[block]) / time_s;
+}
+
+double rounding_error(const Reference& reference) {
+    double sum = 0;
+    for (float value : reference.mean.pixels) sum += double(value);
+    const double mean = sum / double(std::max<std::size_t>(reference.mean.pixels.size(), 1));
+    return kRounding * kRounding * mean * mean;
+}
+
 void measure_blocks(const Reference& reference, const Curve& yardstick, Curve& curve) {
     if (&curve == &yardstick) return;
-    std::vector<YardstickRung> rungs;
-    for (const Rung& rung : yardstick.rungs) {
-        YardstickRung y{std::log(rung.time_s.median), block_errors(reference, rung)};
-        for (double& value : y.error_times_time) value *= rung.time_s.median;
-        rungs.push_back(std::move(y));
-    }
-    std::sort(rungs.begin(), rungs.end(),
-              [](const auto& a, const auto& b) { return a.log_time < b.log_time; });
-    const double least = smallest_that_counts(reference.mean);
+    BlockErrorsOverTime plain;
+    for (const Rung& rung : yardstick.rungs)
+        plain.add(rung.time_s.median, mean_block_errors(reference, rung));
     for (Rung& rung : curve.rungs) {
-        const std::vector<double> errors = block_errors(reference, rung);
-        std::size_t worse = 0, twice = 0, tenth = 0;
+        const BlockErrors errors = mean_block_errors(reference, rung);
+        std::size_t worse = 0, twice = 0;
         for (std::size_t block = 0; block < errors.size(); ++block) {
-            const double expected = expected_error(rungs, block, rung.time_s.median);
+            const double expected = plain.at(block, rung.time_s.median);
             worse += errors[block] > expected;
             twice += errors[block] > kClearly * std::max(expected, 0.0);
-            tenth += errors[block] > kTenth * std::max(expected, 0.0) + least;
         }
         rung.blocks_worse = double(worse) / double(errors.size());
         rung.blocks_twice = double(twice) / double(errors.size());
-        rung.blocks_tenth = double(tenth) / double(errors.size());
     }
 }
 

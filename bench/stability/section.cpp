@@ -4,6 +4,7 @@
 
 #include "bench/converge/chart.hpp"
 #include "bench/converge/html.hpp"
+#include "bench/stability/luck.hpp"
 #include "bench/stability/tables.hpp"
 
 namespace wedge::stability {
@@ -25,10 +26,10 @@ std::string heat(double ratio, const std::string& text) {
 }
 
 std::string verdict_html(const Verdict& v) {
-    const std::string mark = v.limits_hold ? "" : " ✗";
+    const std::string mark = v.does_harm() ? " ✗" : v.rmse_holds ? "" : " ?";
     return heat(v.rmse_ratio,
                 fmt::format("{}{:.2f}{}<small>{:.0f} % blocks</small>", v.beyond ? "~" : "",
-                            v.rmse_ratio, mark, 100 * v.blocks_worse));
+                            v.rmse_ratio, mark, 100 * v.blocks.shown));
 }
 
 std::string rule_html(const Rule& rule, const Column& column) {
@@ -106,13 +107,14 @@ std::string verdicts_html(const Suite& suite, const std::vector<Row>& rows) {
     if (rows.empty()) return "";
     std::string html = fmt::format(
         "<section>\n<h2 id=\"stability\">Stability</h2>\n<p class=\"soft\">RMSE over that of {0} "
-        "in "
-        "the same time, by scene and budget; below, the share of 16x16 blocks with more than 1.1 "
-        "times its RMSE there. ✗: above {1:g} or {2:g} %. {0}'s error at a time is interpolated, "
-        "straight in log-log; ~: beyond its budgets, error times square root of time is kept. "
-        "Errors below a ten thousandth of the image's mean count as equal.</p>\n",
+        "in the same time, by scene and budget; below, the share of 16x16 blocks with more than "
+        "1.1 times its RMSE there, beyond luck: by Student's test over seeds at {3:g} %. ✗: RMSE "
+        "above {1:g} beyond luck, or more than {2:g} % of blocks. ?: RMSE above {1:g}, not beyond "
+        "luck. {0}'s error at a time is interpolated, straight in log-log; ~: beyond its budgets, "
+        "error times square root of time is kept. Errors below a ten thousandth of the image's "
+        "mean count as equal.</p>\n",
         rows.front().yardstick.curve->method->name, suite.limits.rmse_ratio,
-        100 * suite.limits.blocks_worse);
+        100 * suite.limits.blocks_worse, 100 * kLevel);
     for (std::size_t i = 0; i < rows.front().columns.size(); ++i) {
         const converge::Method& method = *rows.front().columns[i].curve->method;
         html += fmt::format("<h3>{}: {}</h3>\n", method.name, escaped(method.label)) +

@@ -47,10 +47,11 @@ struct Absent {
     std::string id, name, reason;
 };
 
-/// What must hold for every recipe: issue by issue the same for all methods and budgets.
+/// What must hold for every recipe, the same for all methods and budgets.
 struct Limits {
-    double rmse_ratio = 1.02;    ///< to the yardstick at equal time
-    double blocks_worse = 0.05;  ///< share of 16 x 16 blocks with more than 1.1 times its RMSE
+    double rmse_ratio = 1.02;  ///< to the yardstick at equal time
+    /// Share of 16 x 16 blocks with more than 1.1 times its RMSE, beyond luck.
+    double blocks_worse = 0.05;
 };
 
 struct Suite {

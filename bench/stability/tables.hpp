@@ -12,7 +12,7 @@ namespace wedge::stability {
 /// Worst of all budgets, a line a scene, for a terminal.
 std::string verdicts_text(const std::vector<Row>& rows);
 
-/// A table a method, for documentation.
+/// How it was measured, totals, and a table a method: for documentation.
 std::string verdicts_markdown(const converge::Config& config, const Suite& suite,
                               const std::vector<Row>& rows);
 
@@ -23,7 +23,8 @@ nlohmann::json verdicts_json(const Suite& suite, const std::vector<Row>& rows);
 
 /// Of a method over all scenes and budgets.
 struct Totals {
-    std::size_t cells = 0, limits_hold = 0, rules_hold = 0;
+    std::size_t cells = 0, rmse_holds = 0, blocks_hold = 0, rules_hold = 0;
+    std::size_t rmse_is_worse = 0, harmless = 0;  ///< beyond luck
     double worst_ratio = 0, median_ratio = 0;
     std::string worst_scene;
     std::optional<double> predicted_median;           ///< of predicted over true RMSE

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "bench/stability/luck.hpp"
 #include "bench/stability/measures.hpp"
 
 namespace wedge::stability {
@@ -36,6 +37,12 @@ class ErrorAtTime {
     double ratio(double error, double time) const {
         if (curve_.empty()) return 1;  // neither has any error
         return std::max(error, least_) / at(time);
+    }
+
+    /// By how much an error is more than `most` times the yardstick's.
+    double margin(double error, double time, double most) const {
+        if (curve_.empty()) return 0;
+        return std::max(error, least_) - most * at(time);
     }
 
   private:
@@ -75,7 +82,14 @@ class Judge {
           least_(kExact * mean_of(reference_.mean)),
           rmse_(yardstick_, rmse_of, least_),
           own_(
-              yardstick_, [this](const Rung& rung) { return measured(rung); }, own_least()) {}
+              yardstick_, [this](const Rung& rung) { return measured(rung); }, own_least()),
+          blocks_(reference_, yardstick_) {
+        for (std::size_t seed = 0; seed < yardstick_.rungs.front().errors.size(); ++seed)
+            rmse_by_seed_.emplace_back(
+                yardstick_,
+                [seed](const Rung& rung) { return converge::root(rung.errors.at(seed).mse); },
+                least_);
+    }
 
     Column column(const Curve& curve) const {
         Column column{&curve, {}};
@@ -96,14 +110,24 @@ class Judge {
         v.rung = &rung;
         v.beyond = rmse_.beyond(time);
         v.rmse_ratio = is_yardstick ? 1 : rmse_.ratio(rmse_of(rung), time);
-        v.blocks_worse = rung.blocks_tenth;
+        v.rmse_holds = v.rmse_ratio <= limits_.rmse_ratio;
+        v.rmse_is_worse = !v.rmse_holds && positive_beyond_luck(rmse_margins(rung));
+        if (!is_yardstick) v.blocks = blocks_.harm(rung);
+        v.blocks_hold = v.blocks.shown <= limits_.blocks_worse;
         v.rule = measured(rung);
         if (is_ratio(rule_.measure)) v.rule = is_yardstick ? 1 : own_.ratio(v.rule, time);
         v.rule_holds = v.rule <= rule_.at_most;
-        v.limits_hold =
-            v.rmse_ratio <= limits_.rmse_ratio && v.blocks_worse <= limits_.blocks_worse;
         v.predicted_ratio = predicted_ratio(rung);
         return v;
+    }
+
+    /// Seed by seed, as blocks are compared.
+    std::vector<double> rmse_margins(const Rung& rung) const {
+        std::vector<double> margins;
+        for (std::size_t s = 0; s < std::min(rung.errors.size(), rmse_by_seed_.size()); ++s)
+            margins.push_back(rmse_by_seed_[s].margin(converge::root(rung.errors[s].mse),
+                                                      rung.time_s.median, limits_.rmse_ratio));
+        return margins;
     }
 
     const Rule& rule_;
@@ -112,6 +136,8 @@ class Judge {
     const Curve& yardstick_;
     double least_;
     ErrorAtTime rmse_, own_;
+    std::vector<ErrorAtTime> rmse_by_seed_;
+    BlockYardstick blocks_;
 };
 
 template <typename Get>
@@ -128,7 +154,7 @@ double Column::worst_ratio() const {
 }
 
 double Column::worst_blocks() const {
-    return largest(verdicts, [](const Verdict& v) { return v.blocks_worse; });
+    return largest(verdicts, [](const Verdict& v) { return v.blocks.shown; });
 }
 
 double Column::worst_rule() const {
@@ -137,7 +163,12 @@ double Column::worst_rule() const {
 
 bool Column::limits_hold() const {
     return std::all_of(verdicts.begin(), verdicts.end(),
-                       [](const Verdict& v) { return v.limits_hold; });
+                       [](const Verdict& v) { return v.limits_hold(); });
+}
+
+bool Column::does_harm() const {
+    return std::any_of(verdicts.begin(), verdicts.end(),
+                       [](const Verdict& v) { return v.does_harm(); });
 }
 
 bool Column::rule_holds() const {

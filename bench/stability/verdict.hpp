@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/converge/analysis.hpp"
+#include "bench/stability/harm.hpp"
 #include "bench/stability/suite.hpp"
 
 namespace wedge::stability {
@@ -14,12 +15,16 @@ namespace wedge::stability {
 /// kept.
 struct Verdict {
     const converge::Rung* rung = nullptr;
-    double rmse_ratio = 0;    ///< to the yardstick at equal time
-    double blocks_worse = 0;  ///< share with more than 1.1 times its RMSE
-    double rule = 0;          ///< the recipe's own measure
+    double rmse_ratio = 0;       ///< to the yardstick at equal time
+    bool rmse_holds = false;     ///< the ratio is within its limit
+    bool rmse_is_worse = false;  ///< it is above its limit beyond luck
+    Harm blocks;                 ///< limited is what is shown
+    bool blocks_hold = false;
+    double rule = 0;  ///< the recipe's own measure
     bool rule_holds = false;
-    bool limits_hold = false;
     bool beyond = false;  ///< the time is outside of the yardstick's budgets
+    bool limits_hold() const { return rmse_holds && blocks_hold; }
+    bool does_harm() const { return rmse_is_worse || !blocks_hold; }  ///< beyond luck
     /// RMSE that the render itself estimated, over the true one; medians over seeds.
     std::optional<double> predicted_ratio;
 };
@@ -30,7 +35,7 @@ struct Column {
     std::vector<Verdict> verdicts;  ///< one a budget
 
     double worst_ratio() const, worst_blocks() const, worst_rule() const;
-    bool limits_hold() const, rule_holds() const;
+    bool limits_hold() const, does_harm() const, rule_holds() const;
 };
 
 struct Row {
