@@ -43,7 +43,7 @@ struct Trial {
     Synthetic synthetic;
     std::mt19937 random;
     Reference reference;
-    std::vector<std::unique_ptr<SyntheticRung>> rungs;
+    std::vector<std::unique_ptr<std::vector<Image>>> images;  ///< that rungs point to
     Curve plain;
 
     explicit Trial(unsigned seed)
@@ -55,11 +55,13 @@ struct Trial {
     /// `scale`: RMSE by block over that of plain Monte Carlo in the same time.
     template <typename Scale>
     Rung add(double time_s, const Scale& scale) {
-        std::vector<Image> images;
+        images.push_back(std::make_unique<std::vector<Image>>());
         for (int s = 0; s < kSeeds; ++s)
-            images.push_back(blotchy(synthetic, random, 0.1 / std::sqrt(time_s), scale));
-        rungs.push_back(std::make_unique<SyntheticRung>(std::move(images), reference, time_s));
-        return rungs.back()->rung;
+            images.back()->push_back(blotchy(synthetic, random, 0.1 / std::sqrt(time_s), scale));
+        Rung rung;
+        rung.time_s = {time_s, time_s, time_s};
+        for (const Image& image : *images.back()) rung.images.push_back(&image);
+        return rung;
     }
 
     template <typename Scale>
