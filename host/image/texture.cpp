@@ -1,6 +1,7 @@
 // Image files to textures: RGBA, at 8 bits where the file has 8 bits, else linear float32.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include "host/image/tone.hpp"
 #include "wedge/image_io.hpp"
 #include "wedge/log.hpp"
+#include "wedge/shared/radiance.h"
 
 namespace wedge {
 namespace {
@@ -25,28 +27,36 @@ void fill_bytes(TextureImage& texture, const DecodedImage& decoded, std::array<i
                 source[c] < 0 ? 255 : decoded.as_bytes()[i * stride + std::size_t(source[c])];
 }
 
-/// Returns how many texels had a value that is not finite; those values become 0.
-std::size_t fill_floats(TextureImage& texture, const DecodedImage& decoded,
-                        std::array<int, 4> source, bool decode_srgb) {
+/// Texels that had values which are not what is stored.
+struct OddTexels {
+    std::size_t non_finite = 0;  ///< such values become 0
+    std::size_t too_large = 0;   ///< such values become the largest that a sample may have
+};
+
+OddTexels fill_floats(TextureImage& texture, const DecodedImage& decoded, std::array<int, 4> source,
+                      bool decode_srgb) {
     const std::size_t stride = decoded.channels.size();
     texture.texels.resize(decoded.pixel_count() * 4 * sizeof(float));
-    std::size_t non_finite = 0;
+    OddTexels odd;
     for (std::size_t i = 0; i < decoded.pixel_count(); ++i) {
         float texel[4] = {0, 0, 0, 1};
-        bool finite = true;
+        bool finite = true, fits = true;
         for (std::size_t c = 0; c < 4; ++c) {
             if (source[c] < 0) continue;
             const float value = decoded.as_floats()[i * stride + std::size_t(source[c])];
             finite = finite && std::isfinite(value);
+            fits = fits && !(std::abs(value) > WEDGE_LARGEST_RADIANCE);
             if (!std::isfinite(value))
                 texel[c] = 0;
             else
-                texel[c] = decode_srgb && c < 3 ? image::srgb_decode(value) : value;
+                texel[c] = std::clamp(decode_srgb && c < 3 ? image::srgb_decode(value) : value,
+                                      -WEDGE_LARGEST_RADIANCE, WEDGE_LARGEST_RADIANCE);
         }
-        non_finite += finite ? 0 : 1;
+        odd.non_finite += finite ? 0 : 1;
+        odd.too_large += finite && !fits ? 1 : 0;
         std::memcpy(texture.texels.data() + i * sizeof(texel), texel, sizeof(texel));
     }
-    return non_finite;
+    return odd;
 }
 
 }  // namespace
@@ -64,10 +74,14 @@ TextureImage load_texture(const std::filesystem::path& file, bool is_colour) {
     }
     texture.format = TextureFormat::float32;
     const bool decode_srgb = is_colour && decoded.stores_integers;
-    const std::size_t non_finite = fill_floats(texture, decoded, source, decode_srgb);
-    if (non_finite > 0)
+    const OddTexels odd = fill_floats(texture, decoded, source, decode_srgb);
+    if (odd.non_finite > 0)
         log_warning(fmt::format("{}: {} of {} texels have values that are not finite; 0 is used",
-                                file.string(), non_finite, decoded.pixel_count()));
+                                file.string(), odd.non_finite, decoded.pixel_count()));
+    if (odd.too_large > 0)
+        log_warning(fmt::format("{}: {} of {} texels have values above {:g}, which is used",
+                                file.string(), odd.too_large, decoded.pixel_count(),
+                                WEDGE_LARGEST_RADIANCE));
     return texture;
 }
 

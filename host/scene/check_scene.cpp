@@ -7,6 +7,7 @@
 
 #include "host/scene/materials.hpp"
 #include "wedge/error.hpp"
+#include "wedge/shared/radiance.h"
 
 namespace wedge::scene {
 namespace {
@@ -29,8 +30,18 @@ class Place {
                         fmt::format("must be between {} and {}, got {}", lower, upper, value[i]));
     }
 
-    /// Finite and not negative.
+    /// Finite, not negative, and no more than a film can sum.
     void require_radiance(const Vec3& value, const char* member) const {
+        require_intensity(value, member);
+        for (int i = 0; i < 3; ++i)
+            if (value[i] > WEDGE_LARGEST_RADIANCE)
+                require(false, member,
+                        fmt::format("must be at most {:g}, which a film can sum, got {}",
+                                    WEDGE_LARGEST_RADIANCE, value[i]));
+    }
+
+    /// Finite and not negative.
+    void require_intensity(const Vec3& value, const char* member) const {
         for (int i = 0; i < 3; ++i)
             if (!(value[i] >= 0) || !std::isfinite(value[i]))
                 require(false, member,
@@ -139,7 +150,7 @@ void check_lights(const Scene& scene) {
     for (std::size_t i = 0; i < scene.point_lights.size(); ++i) {
         const Place place(scene, fmt::format("point_lights/{}", i));
         place.require_finite(scene.point_lights[i].position, "position");
-        place.require_radiance(scene.point_lights[i].intensity, "intensity");
+        place.require_intensity(scene.point_lights[i].intensity, "intensity");
     }
 }
 

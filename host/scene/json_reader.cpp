@@ -6,6 +6,7 @@
 
 #include "host/base/edit_distance.hpp"
 #include "wedge/error.hpp"
+#include "wedge/shared/radiance.h"
 
 namespace wedge::scene {
 namespace {
@@ -156,6 +157,13 @@ Vec3 JsonView::color(const NumberRange& range) const {
         fail("must be a number or an array of 3 numbers, got " + shown(*value_));
     const auto parts = elements();
     return {parts[0].number(range), parts[1].number(range), parts[2].number(range)};
+}
+
+Vec3 JsonView::radiance() const {
+    const Vec3 value = color();
+    if (std::max({value.x, value.y, value.z}) > WEDGE_LARGEST_RADIANCE)
+        fail(fmt::format("is more than a film can sum, {:g}", WEDGE_LARGEST_RADIANCE));
+    return value;
 }
 
 JsonDocument::~JsonDocument() = default;

@@ -60,6 +60,8 @@ class JsonView {
     Vec3 vec3() const;
     /// Three numbers, or one that stands for all three.
     Vec3 color(const NumberRange& range = kNotNegative) const;
+    /// A colour that is no more than a film can sum.
+    Vec3 radiance() const;
 
     /// Throws Error(bad_input) with the place of this value.
     [[noreturn]] void fail(const std::string& message) const;

@@ -1,9 +1,12 @@
 #include "host/scene/lights.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
 #include "host/base/edit_distance.hpp"
+#include "wedge/shared/radiance.h"
 
 namespace wedge::scene {
 namespace {
@@ -60,12 +63,14 @@ RectLight read_rect(const JsonView& view) {
 
     const auto radiance = view.find("radiance"), power = view.find("power");
     if (bool(radiance) == bool(power)) view.fail("needs either \"radiance\" or \"power\"");
-    if (radiance) light.radiance = radiance->color();
+    if (radiance) light.radiance = radiance->radiance();
     if (power) {
         light.radiance = Vec3(glm::dvec3(power->color()) / power_per_radiance(light));
         for (int channel = 0; channel < 3; ++channel)
-            if (!std::isfinite(light.radiance[channel]))
-                power->fail("is too much for so small a light: the radiance overflows");
+            if (!(light.radiance[channel] <= WEDGE_LARGEST_RADIANCE))
+                power->fail(fmt::format(
+                    "is too much for so small a light: its radiance would be above {:g}",
+                    WEDGE_LARGEST_RADIANCE));
     }
     return light;
 }

@@ -52,7 +52,7 @@ MaterialEdit read_material(const JsonView& view) {
     MaterialEdit edit;
     if (const auto kd = view.find("kd")) edit.diffuse = kd->color(kUnit);
     if (const auto ks = view.find("ks")) edit.specular = ks->color(kUnit);
-    if (const auto emission = view.find("emission")) edit.emission = emission->color();
+    if (const auto emission = view.find("emission")) edit.emission = emission->radiance();
     if (const auto m = view.find("exponent")) edit.exponent = m->number({0, kLargestExponent});
     if (const auto model = view.find("model")) edit.model = read_model(*model);
     const auto texture = [&](const char* key, TextureRole role, std::optional<TextureEdit>& out) {

@@ -9,6 +9,7 @@
 #include "host/scene/materials.hpp"
 #include "host/scene/mtl_text.hpp"
 #include "wedge/log.hpp"
+#include "wedge/shared/radiance.h"
 
 namespace wedge::scene {
 namespace {
@@ -62,7 +63,7 @@ Material convert(const tinyobj::material_t& mtl, const std::filesystem::path& fi
     if (!mtl.diffuse_texname.empty() && material.diffuse == Vec3(0))
         material.diffuse = Vec3(material.diffuse_texture >= 0 ? 1 : kNeutral);
 
-    material.emission = color(mtl.emission);
+    material.emission = glm::min(color(mtl.emission), Vec3(WEDGE_LARGEST_RADIANCE));
     material.emission_texture =
         texture(mtl.emissive_texname, mtl.emissive_texopt, TextureRole::emission);
     if (material.emission_texture >= 0 && material.emission == Vec3(0)) material.emission = Vec3(1);

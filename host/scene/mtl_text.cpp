@@ -4,6 +4,7 @@
 
 #include "host/scene/materials.hpp"
 #include "host/scene/words.hpp"
+#include "wedge/shared/radiance.h"
 
 namespace wedge::scene {
 namespace {
@@ -11,13 +12,14 @@ namespace {
 constexpr std::size_t kMostListed = 3;
 
 /// What is wrong with the colour on a line, if anything.
-const char* flaw_of_color(std::string_view line) {
+const char* flaw_of_color(std::string_view line, bool is_emission) {
     // Spectra and CIE coordinates have names of their own, and nobody writes them.
     if (line.starts_with("spectral") || line.starts_with("xyz")) return nullptr;
     for (int channel = 0; channel < 3 && !line.empty(); ++channel) {
         const double value = number_in(take_word(line));
         if (std::isnan(value)) return "no finite number; 0 is used";
         if (value < 0) return "negative; 0 is used";
+        if (is_emission && value > WEDGE_LARGEST_RADIANCE) return "above 2^51, which is used";
     }
     return nullptr;
 }
@@ -51,7 +53,8 @@ const char* flaw_of_texture(std::string_view line) {
 }
 
 const char* flaw_of(std::string_view keyword, std::string_view line) {
-    if (keyword == "Kd" || keyword == "Ks" || keyword == "Ke") return flaw_of_color(line);
+    if (keyword == "Kd" || keyword == "Ks" || keyword == "Ke")
+        return flaw_of_color(line, keyword == "Ke");
     if (keyword == "Ns") return flaw_of_exponent(line);
     const bool texture = keyword.starts_with("map_") || keyword == "bump" || keyword == "norm";
     return texture ? flaw_of_texture(line) : nullptr;

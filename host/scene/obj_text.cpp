@@ -35,11 +35,20 @@ bool has_blank_after(const std::string& text, std::size_t start) {
     return end != std::string::npos && (text[end] == ' ' || text[end] == '\t');
 }
 
+/// Only long numbers and those with an exponent can overflow; others need not be read twice.
+bool overflows(std::string_view word) {
+    constexpr std::size_t kDigitsOfFloat = 38;
+    const bool may = word.size() > kDigitsOfFloat || word.find_first_of("eE") != word.npos;
+    return may && std::isnan(number_in(word));
+}
+
 /// Counts a line of which one of the first `least` words, or any further, is no number.
 void count_bad(BadLines& bad, std::string_view line, int least, std::size_t line_number) {
     bool sound = true;
-    for (int i = 0; i < 3 && sound && (i < least || !line.empty()); ++i)
-        sound = looks_like_number(take_word(line));
+    for (int i = 0; i < 3 && sound && (i < least || !line.empty()); ++i) {
+        const std::string_view word = take_word(line);
+        sound = looks_like_number(word) && !overflows(word);
+    }
     if (sound) return;
     if (bad.count++ == 0) bad.first_line = line_number;
 }

@@ -176,7 +176,7 @@ Scene load_scene_file(const std::filesystem::path& file, const LoadOptions& opti
     scene.camera = read_camera(root.require("camera"));
     if (const auto film = root.find("film")) scene.film = read_film(*film);
     if (const auto render = root.find("render")) scene.defaults = read_render_defaults(*render);
-    if (const auto background = root.find("background")) scene.background = background->color();
+    if (const auto background = root.find("background")) scene.background = background->radiance();
     if (const auto lights = root.find("lights")) read_lights(*lights, scene);
     MaterialEdits edits;
     if (const auto materials = root.find("materials")) edits = read_materials(*materials);

@@ -11,6 +11,7 @@
 #include "tests/image/support.hpp"
 #include "wedge/image_io.hpp"
 #include "wedge/log.hpp"
+#include "wedge/shared/radiance.h"
 
 using namespace wedge;
 using wedge::test::error_message;
@@ -176,6 +177,19 @@ TEST_CASE("colour_of_transparent_texels_survives") {
                     OIIO::TypeDesc::UINT8);
     CHECK(load_texture(folder / "t.png", true).texels ==
           std::vector<unsigned char>{200, 100, 50, 0});
+}
+
+TEST_CASE("texels_too_large_for_the_sums_of_a_film_are_cut_and_counted") {
+    const TemporaryFolder folder;
+    write_with_oiio(folder / "t.exr", 2, 1, 3, std::vector<float>{3e38f, 2, -1e30f, 3, 4, 1e15f},
+                    OIIO::TypeDesc::FLOAT);
+    CollectedWarnings warnings;
+    const TextureImage texture = load_texture(folder / "t.exr", true);
+    constexpr float kMost = WEDGE_LARGEST_RADIANCE;
+    CHECK(float_texel(texture, 0) == std::array<float, 4>{kMost, 2, -kMost, 1});
+    CHECK(float_texel(texture, 1) == std::array<float, 4>{3, 4, 1e15f, 1});
+    REQUIRE(warnings.messages.size() == 1);
+    CHECK(warnings.messages[0].find("1 of 2 texels have values above") != std::string::npos);
 }
 
 TEST_CASE("texels_that_are_not_finite_become_black_and_are_counted") {

@@ -65,6 +65,9 @@ TEST_CASE("what_bands_cannot_do_is_said") {
     options.method = Method::aaf;
     CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("only --method mc"), Error);
     options.method = Method::mc;
+    options.resume_file = "bands.state";
+    CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("cannot be resumed"), Error);
+    options.resume_file.clear();
     options.time_limit_s = 1;
     CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("cannot end at a time"), Error);
 }

@@ -235,6 +235,23 @@ TEST_CASE("coordinates_near_the_ends_of_single_precision_are_survived") {
     }
 }
 
+// Squares of samples are summed in single precision: light of 1e20 is finite, its square is not.
+TEST_CASE("light_beyond_what_a_film_can_sum_is_dropped_and_counted") {
+    for (float intensity : {1e20f, 3e38f}) {
+        CAPTURE(intensity);
+        Scene scene = make_room(20);
+        scene.rect_lights.clear();
+        scene.point_lights = {{Vec3(0, 1.9f, 0), Vec3(intensity)}};
+        for (Method method : {Method::mc, Method::aaf}) {
+            RenderOptions options = quick(16, 1);
+            options.method = method;
+            const Frame frame = render(scene, options);
+            CHECK(frame.stats.non_finite_samples > 0);
+            for (float value : frame.image.pixels) REQUIRE(std::isfinite(value));
+        }
+    }
+}
+
 TEST_CASE("scenes_with_lights_that_are_no_numbers_are_refused") {
     Scene scene = make_room(0);
     scene.rect_lights[0].radiance.y = std::numeric_limits<float>::quiet_NaN();

@@ -7,6 +7,7 @@
 #include "host/scene/mtl_text.hpp"
 #include "host/scene/words.hpp"
 #include "tests/scene/support.hpp"
+#include "wedge/shared/radiance.h"
 
 using namespace wedge;
 using namespace wedge::test;
@@ -51,6 +52,13 @@ TEST_CASE("bad_colours_of_mtl_are_told_with_their_line_and_count_as_0") {
         CHECK(log.count(":4: Ke") == 1);
         CHECK(log.warnings.size() == 1);
     }
+}
+
+TEST_CASE("emission_of_mtl_is_no_more_than_a_film_can_sum") {
+    LogCapture log;
+    const Scene scene = load_with_mtl("Kd 0 0 0\nKe 1e30 1 1e15\n", log);
+    CHECK(scene.materials.at(0).emission == Vec3(WEDGE_LARGEST_RADIANCE, 1, 1e15f));
+    CHECK(log.count("m.mtl:3: Ke 1e30 1 1e15: above 2^51, which is used") == 1);
 }
 
 TEST_CASE("exponents_of_mtl_stay_in_range") {
@@ -112,6 +120,19 @@ TEST_CASE("bad_vertices_normals_and_uvs_are_counted_with_the_first_line") {
     REQUIRE(mesh.triangles.size() == 3);
     for (const Vec2& uv : mesh.uvs) CHECK((std::isfinite(uv.x) && std::isfinite(uv.y)));
     for (const Vec3& n : mesh.normals) CHECK(std::isfinite(glm::length(n)));
+}
+
+TEST_CASE("normals_and_uvs_that_overflow_are_counted") {
+    TempFolder folder;
+    LogCapture log;
+    load_scene(folder.write("m.obj", kTriangleObj +
+                                         "vn 0 1e39 1\nvn 0 1e38 1e-60\nvt 1e-3 1E99\n"
+                                         "vt 0." +
+                                         std::string(60, '1') + "\nvt " + std::string(60, '1') +
+                                         "\n"));
+    CHECK(log.count("1 normals are no numbers") == 1);
+    CHECK(log.count("2 texture coordinates are no numbers") == 1);
+    CHECK(log.warnings.size() == 2);
 }
 
 TEST_CASE("a_vertex_line_without_numbers_spoils_no_other_vertex") {
@@ -185,6 +206,7 @@ TEST_CASE("scenes_made_in_memory_are_checked") {
     CHECK(contains(error([](Scene& s) { s.instances[0].mesh = 9; }), "no mesh 9"));
     CHECK(contains(error([](Scene& s) { s.rect_lights[0].radiance.x = kNan; }),
                    "rect_lights/0/radiance: must be finite and not negative, got nan"));
+    CHECK(contains(error([](Scene& s) { s.rect_lights[0].radiance.x = 1e16f; }), "got 1e+16"));
     CHECK(contains(error([](Scene& s) { s.rect_lights[0].edge_u.x = kInf; }), "edge_u"));
     CHECK(contains(error([](Scene& s) {
                        s.rect_lights[0].profile = LightProfile::gaussian;

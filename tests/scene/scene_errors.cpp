@@ -146,6 +146,11 @@ TEST_CASE("light_members_fit_together") {
     const std::string start = R"({"type": "rect", "center": [0,1,0], "u": [1,0,0], "v": [0,0,1])";
     CHECK(contains(error_of_light(start + "}"), "either \"radiance\" or \"power\""));
     CHECK(contains(error_of_light(start + R"(, "radiance": 1, "power": 1})"), "either"));
+    CHECK(contains(error_of_light(start + R"(, "radiance": 1e16})"),
+                   "/lights/0/radiance: is more than a film can sum, 2.2518e+15"));
+    CHECK(contains(error_of_light(start + R"(, "power": 1e17})"), "/lights/0/power: is too much"));
+    CHECK(contains(error_of_member(R"("background": [0, 1e30, 0])"),
+                   "/background: is more than a film can sum"));
     CHECK(contains(error_of_light(start + R"(, "radiance": -1})"),
                    "/lights/0/radiance: must not be negative, got -1"));
     CHECK(contains(error_of_light(start + R"(, "radiance": 1, "profile": "gauss"})"),
