@@ -6,6 +6,7 @@
 #include "host/base/parallel.hpp"
 #include "host/bvh/bvh.hpp"
 #include "host/bvh/collapse.hpp"
+#include "host/bvh/order.hpp"
 #include "host/bvh/prim_refs.hpp"
 #include "host/bvh/split.hpp"
 
@@ -223,6 +224,30 @@ void copy_piece(const Input& input, const PlacedPiece& from, Bvh& bvh) {
     }
 }
 
+/// Copies all pieces and orders the children of their nodes: in those that are subtrees at once, in
+/// the nodes above them afterwards.
+void copy_pieces(const Input& input, const Places& places, Bvh& bvh) {
+    bvh.nodes.resize(places.node_count);
+    bvh.blocks.resize(places.block_count);
+    RawVector<Expectation> expected(places.node_count);
+    const auto order = [&](const PlacedPiece& placed) {
+        order_nodes(bvh, placed.first_node, placed.piece->nodes.size(), input.splitter.scale,
+                    {expected.data(), expected.size()});
+    };
+    const auto has_kids = [](const PlacedPiece& placed) {
+        return std::any_of(placed.piece->kids.begin(), placed.piece->kids.end(),
+                           [](const auto& kid) { return kid != nullptr; });
+    };
+    parallel_ranges(places.pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            copy_piece(input, places.pieces[i], bvh);
+            if (!has_kids(places.pieces[i])) order(places.pieces[i]);
+        }
+    });
+    for (std::size_t i = places.pieces.size(); i-- > 0;)
+        if (has_kids(places.pieces[i])) order(places.pieces[i]);
+}
+
 Bounds to_bounds(const Box& box) {
     return {Vec3(box.lower[0], box.lower[1], box.lower[2]),
             Vec3(box.upper[0], box.upper[1], box.upper[2])};
@@ -271,11 +296,7 @@ Bvh build(std::span<const Vec3> positions, std::span<const UVec3> triangles, Bvh
     Places places;
     place_pieces(*root, places);
     bvh.depth = places.depth;
-    bvh.nodes.resize(places.node_count);
-    bvh.blocks.resize(places.block_count);
-    parallel_ranges(places.pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) copy_piece(input, places.pieces[i], bvh);
-    });
+    copy_pieces(input, places, bvh);
     bvh.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return bvh;
 }
