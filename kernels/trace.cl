@@ -39,6 +39,15 @@ __kernel void trace_occluded_rays(WEDGE_TREE_PARAMS, __global const PackedRay* r
     hits[i] = hit;
 }
 
+// For each set of lanes, the values at them from packed[8 * set] on.
+__kernel void pack_sets_of_lanes(__global const int* values, __global int* packed, uint count) {
+    uint set = get_global_id(0);
+    if (set >= count) return;
+    int found[8];
+    pack_lanes8(values, set, found);
+    for (int i = 0; i < (int)popcount(set); i++) packed[8 * set + i] = found[i];
+}
+
 typedef struct {
     float4 v0, v1, v2;
     float4 barycentrics;
