@@ -253,7 +253,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 #if WEDGE_SIGNALS > 0
 inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
     const float3 rest = r->direct + r->indirect - r->filtered_direct - r->filtered_indirect;
-    if (!all_finite(r->filtered_direct + r->filtered_indirect + rest)) return;
+    if (!fits_film(r->filtered_direct + r->filtered_indirect + rest)) return;
     const int half_index = signals->half_index;
     signals->unfiltered->direct[half_index] += (float4)(r->filtered_direct, 1.0f);
     signals->unfiltered->indirect[half_index] += (float4)(r->filtered_indirect, luminance(rest));

@@ -21,6 +21,7 @@ void check_options(const Rect& crop, const RenderOptions& options) {
     if (options.method != Method::mc) refuse("which only --method mc can");
     if (!options.resume_file.empty()) refuse("which cannot be resumed");
     if (options.time_limit_s) refuse("which cannot end at a time");
+    if (options.target_error) refuse("which cannot end at an error");
 }
 
 }  // namespace

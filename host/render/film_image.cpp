@@ -92,6 +92,7 @@ Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film,
 }
 
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop) {
+    if (channels.empty()) return;  // a large image is not copied for nothing
     const std::size_t before = image.channels.size(), after = before + channels.size();
     std::vector<float> pixels(image.pixels.size() / before * after, 0.0f);
     for (std::size_t i = 0; i * before < image.pixels.size(); ++i)

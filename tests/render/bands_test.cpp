@@ -70,6 +70,9 @@ TEST_CASE("what_bands_cannot_do_is_said") {
     options.resume_file.clear();
     options.time_limit_s = 1;
     CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("cannot end at a time"), Error);
+    options.time_limit_s.reset();
+    options.target_error = 0.1;
+    CHECK_THROWS_WITH_AS(render(scene, options), doctest::Contains("end at an error"), Error);
 }
 
 }  // namespace wedge::test
