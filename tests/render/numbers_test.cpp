@@ -241,7 +241,7 @@ TEST_CASE("light_beyond_what_a_film_can_sum_is_dropped_and_counted") {
         CAPTURE(intensity);
         Scene scene = make_room(20);
         scene.rect_lights.clear();
-        scene.point_lights = {{Vec3(0, 1.9f, 0), Vec3(intensity)}};
+        scene.point_lights = {{Vec3(0, 0.9f, 0), Vec3(intensity)}};
         for (Method method : {Method::mc, Method::aaf}) {
             RenderOptions options = quick(16, 1);
             options.method = method;
