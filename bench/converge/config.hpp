@@ -61,7 +61,7 @@ struct Config {
 inline constexpr int kReferenceFactor = 16;
 
 /// `reference_time_s` of the command line.
-inline constexpr double kReferenceTime_s = 300;
+inline constexpr double kReferenceTime_s = 60;
 
 /// Strata, which leave the least error after as many samples; independent samples if a method runs
 /// with strata, so that a reference shares its sampler with no method it judges.
