@@ -13,6 +13,8 @@ import os
 import sys
 import xml.etree.ElementTree as xml
 
+from exported_scene import farthest
+
 # Of the distance from which the whole scene is seen; Mitsuba wants both planes of the view's frustum.
 NEAR_SHARE, FAR_SHARE = 1e-4, 4.0
 
@@ -112,16 +114,6 @@ def add_other_lights(scene, exported):
         add_rgb(emitter, "intensity", point["intensity"])
     if any(exported["background"]):
         add_rgb(add(scene, "emitter", type="constant"), "radiance", exported["background"])
-
-
-def farthest(exported):
-    """From the camera to any point of the scene, at most."""
-    camera, bounds = exported["camera"], exported["bounds"]
-    corner = [
-        max(abs(p - low), abs(p - high))
-        for p, low, high in zip(camera["position"], bounds["lower"], bounds["upper"])
-    ]
-    return math.sqrt(sum(x * x for x in corner))
 
 
 def add_sensor(scene, exported):
