@@ -52,7 +52,7 @@ inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f,
 
     const Ray shadow = shadow_ray(s, &light);
     result->rays += 1;
-    if (trace_occluded(scene->nodes, scene->blocks, shadow)) return none;
+    if (trace_occluded(scene->tree, shadow)) return none;
 
     const float weight = weighted && !light.is_point ? light.pdf / (light.pdf + pdf_bsdf) : 1.0f;
     return value * light.radiance * (dot(s->normal, wi) * weight / light.pdf);
@@ -133,7 +133,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     float pdf_direction = 0.0f; /* of the ray, over solid angle; 0: only this ray could find the light */
     for (int depth = 0; depth <= bounces + 1; ++depth) {
         result.rays += 1;
-        const Hit hit = trace_closest(scene->nodes, scene->blocks, ray);
+        const Hit hit = trace_closest(scene->tree, ray);
         if (hit.primitive == WEDGE_NO_PRIMITIVE) {
             if (depth == 0)
                 result.emission = background;

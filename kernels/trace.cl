@@ -21,9 +21,8 @@ __kernel void trace_closest_rays(WEDGE_TREE_PARAMS, __global const PackedRay* ra
                                  __global Hit* hits, uint count) {
     uint i = get_global_id(0);
     if (i >= count) return;
-    TreeNodes nodes = WEDGE_TREE_NODES;
-    TreeBlocks blocks = WEDGE_TREE_BLOCKS;
-    hits[i] = trace_closest(nodes, blocks, unpack_ray(rays + i));
+    Tree tree = WEDGE_TREE;
+    hits[i] = trace_closest(tree, unpack_ray(rays + i));
 }
 
 // A hit is t = 0, primitive = 0; a miss is t = t_max, primitive = WEDGE_NO_PRIMITIVE.
@@ -31,10 +30,9 @@ __kernel void trace_occluded_rays(WEDGE_TREE_PARAMS, __global const PackedRay* r
                                   __global Hit* hits, uint count) {
     uint i = get_global_id(0);
     if (i >= count) return;
-    TreeNodes nodes = WEDGE_TREE_NODES;
-    TreeBlocks blocks = WEDGE_TREE_BLOCKS;
+    Tree tree = WEDGE_TREE;
     Ray ray = unpack_ray(rays + i);
-    bool occluded = trace_occluded(nodes, blocks, ray);
+    bool occluded = trace_occluded(tree, ray);
     Hit hit = {occluded ? 0.0f : ray.t_max, 0.0f, 0.0f, occluded ? 0u : WEDGE_NO_PRIMITIVE};
     hits[i] = hit;
 }

@@ -11,13 +11,13 @@
 namespace wedge::rendering {
 
 struct DeviceTree {
-    std::vector<cl::Buffer> nodes, blocks;  ///< one, or WEDGE_TREE_CHUNKS of each
+    std::vector<cl::Buffer> arrays;  ///< in the order of WEDGE_TREE_PARAMS (kernels/lib/tree.clh)
     /// For every program that traces rays through it, e.g. "WEDGE_BVH_LAYOUT=1". None where the
     /// layout is wide and nothing is cut.
     std::vector<std::string> defines;
     uint64_t bytes = 0;
 
-    /// Sets WEDGE_TREE_PARAMS (kernels/lib/tree.clh) from argument `first` on; returns the next
+    /// Sets WEDGE_TREE_PARAMS from argument `first` on; returns the next
     /// index.
     cl_uint set_args(cl::Kernel& kernel, cl_uint first) const;
 };

@@ -14,6 +14,13 @@ typedef struct BvhNode {
 } BvhNode;
 WEDGE_ASSERT_SIZE(BvhNode, 224);
 
+/* Kernels get such nodes and the blocks below in one array of rows, each node followed by its blocks; children are
+   then the numbers of their first rows. */
+typedef struct TreeRow {
+    float values[8];
+} TreeRow;
+WEDGE_ASSERT_SIZE(TreeRow, 32);
+
 /* The same in 80 bytes, after Ylitie, Karras and Laine 2017: planes are origin + step * byte,
    rounded outwards, so that boxes contain those they stand for. Children that are nodes lie side by
    side, and so do those that are blocks, both in the order of their slots. Slots are in space: bits
