@@ -48,11 +48,13 @@ __kernel void eval_bsdf_directions(float4 parameters, float4 wo, __global const 
 }
 
 /* out: position, pdf */
-__kernel void sample_light_points(WEDGE_SCENE_PARAMS, float4 from, uint seed, uint count,
+__kernel void sample_light_points(__global const Light* lights, uint light_count, float4 from, uint seed, uint count,
                                   __global float4* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    const Scene scene = WEDGE_SCENE_ARGS;
+    Scene scene; /* sampling a light reads nothing but the lights */
+    scene.lights = lights;
+    scene.light_count = light_count;
     const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 1u, 0u, id);
     const LightSample light = sample_light(&scene, 0, from.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
     out[id] = (float4)(light.position, light.pdf);

@@ -45,11 +45,10 @@ std::vector<float2> SamplingKernels::bsdf_values(float4 parameters, float4 wo,
 
 std::vector<float4> SamplingKernels::light_points(const std::vector<shared::Light>& lights,
                                                   float4 from, uint32_t seed, uint32_t count) {
-    const cl::Buffer none = device_.allocate(64, "unused");
     const cl::Buffer list =
         device_.upload_bytes(lights.data(), lights.size() * sizeof(lights[0]), "lights");
-    return run<float4>("sample_light_points", count, none, none, none, none, none, none, none, list,
-                       uint32_t(lights.size()), from, seed, count);
+    return run<float4>("sample_light_points", count, list, uint32_t(lights.size()), from, seed,
+                       count);
 }
 
 std::vector<float4> SamplingKernels::angles(const std::vector<float4>& in) {
