@@ -35,6 +35,9 @@ class Device {
     cl::Buffer allocate(uint64_t bytes, const std::string& what,
                         cl_mem_flags flags = CL_MEM_READ_WRITE);
 
+    /// The same, all bits 0.
+    cl::Buffer allocate_zeros(uint64_t bytes, const std::string& what);
+
     /// Allocates and fills; kernels may only read it, unless `flags` say otherwise.
     template <typename T>
     cl::Buffer upload(std::span<const T> items, const std::string& what) {
@@ -60,6 +63,10 @@ class Device {
     uint64_t allocated_bytes() const { return allocated_bytes_; }
 
   private:
+    /// Where the device's memory is the host's: rays jump about in it, and large pages take less
+    /// time to be found and to be had.
+    void prefer_large_pages(const cl::Buffer& buffer, uint64_t bytes);
+
     DeviceInfo info_;
     cl::Device device_;
     cl::Context context_;

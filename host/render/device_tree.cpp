@@ -13,41 +13,24 @@
 #include "host/bvh/interleave.hpp"
 #include "wedge/error.hpp"
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 namespace wedge::rendering {
 namespace {
 
-// Smaller arrays have no room for a large page.
-constexpr uint64_t kLargePagesFrom_bytes = uint64_t(2) << 20;
+// Smaller arrays are not worth the threads.
+constexpr uint64_t kCopyInParallelFrom_bytes = uint64_t(2) << 20;
 constexpr std::size_t kCopyGrain_bytes = std::size_t(2) << 20;
 
-/// A CPU's rays jump about in the tree: with pages of 2 MiB in place of 4 KiB they wait less for
-/// their addresses. `memory` must not have been touched yet. A hint, which may be ignored.
-void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] uint64_t bytes) {
-#ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t kPage = 4096;
-    const auto first = (reinterpret_cast<std::uintptr_t>(memory) + kPage - 1) / kPage * kPage;
-    const auto last = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
-    if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-#endif
-}
-
-/// As Device::upload. Where the device's memory is the host's, its pages are large, and all cores
-/// copy.
+/// As Device::upload. Where the device's memory is the host's, all cores copy.
 template <typename T>
 cl::Buffer upload_array(device::Device& device, std::span<const T> items, const char* what) {
     const uint64_t bytes = items.size_bytes();
-    if (device.info().type != DeviceType::cpu || bytes < kLargePagesFrom_bytes)
+    if (device.info().type != DeviceType::cpu || bytes < kCopyInParallelFrom_bytes)
         return device.upload(items, what);
     try {
         cl::Buffer buffer = device.allocate(bytes, what, CL_MEM_READ_ONLY);
         const cl::CommandQueue& queue = device.queue();
         char* memory = static_cast<char*>(
             queue.enqueueMapBuffer(buffer, CL_TRUE, CL_MAP_WRITE_INVALIDATE_REGION, 0, bytes));
-        ask_for_large_pages(memory, bytes);
         const char* from = reinterpret_cast<const char*>(items.data());
         parallel_ranges(bytes, kCopyGrain_bytes, [&](std::size_t begin, std::size_t end) {
             std::memcpy(memory + begin, from + begin, end - begin);
