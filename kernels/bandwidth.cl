@@ -1,37 +1,52 @@
 /* Frequency analysis, between the probe and the adaptive samples (path.cl):
      filter_surfaces    where each surface of a pixel was met
      filter_distances   probe samples' distances to the slopes or depths that decide frequencies
+     filter_neighbours  the same, of pixels that found nothing or little from those around them
      filter_brightness  sums over rows of the image so far
      filter_bandwidth   widths of filters and numbers of samples
      filter_merge_halves   the probe becomes a part of the first half, where more samples follow
-   Arrays: include/wedge/shared/filter.h. */
+   Arrays: include/wedge/shared/filter.h; places, found and sigmas in planes. */
 #include "lib/filter_weight.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
+/* One number of WEDGE_PLACE_* of a surface. */
+#define WEDGE_PLACE(planes, places, surface, what, at) \
+    (places)[((surface) * WEDGE_PLACE_PLANES + (what)) * (planes)->size + (at)]
+
+inline void set_place(const Planes* planes, __global float* places, int surface, ulong at, float3 position,
+                      float3 normal, float size, float slanted_size) {
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_X, at) = position.x;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_Y, at) = position.y;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_Z, at) = position.z;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_SIZE, at) = size;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_NX, at) = normal.x;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_NY, at) = normal.y;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_NZ, at) = normal.z;
+    WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_SLANTED_SIZE, at) = slanted_size;
+}
+
 __kernel void filter_surfaces(__global const FrameParams* restrict params,
                               __constant FilterSettings* settings,
                               __global const SurfaceSum* restrict sums,
-                              __global FilterSurface* restrict surfaces, uint count) {
-    const uint id = get_global_id(0);
-    if (id >= count) return;
-    FilterSurface s;
-    s.position = s.normal = (float4)(0.0f);
-    const float samples = sums[id].position.w;
-    if (samples > 0.0f) {
-        const float3 p = sums[id].position.xyz / samples;
+                              __global float* restrict places, int width, int height) {
+    const int pixel = (int)get_global_id(0);
+    if (pixel >= width * height) return;
+    const Planes planes = make_planes(width, height);
+    const ulong at = pixel_at(&planes, pixel % width, pixel / width);
+    for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
+        __global const SurfaceSum* sum = sums + pixel * WEDGE_SURFACES + surface;
+        if (!(sum->position.w > 0.0f)) break;
+        const float3 p = sum->position.xyz / sum->position.w;
         const float3 to_eye = params->camera.position.xyz - p;
-        const float distance = length(to_eye), normal_length = length(sums[id].normal.xyz);
-        if (normal_length > 0.0f && distance > 0.0f) {
-            const float3 n = sums[id].normal.xyz / normal_length;
-            /* A surface seen edge-on is as long as its pixel is deep; a hundredth is enough. */
-            const float cos_view = fmax(fabs(dot(n, to_eye)) / distance, 0.01f);
-            const float face_on = distance * settings->pixel_angle;
-            s.position = (float4)(p, face_on);
-            s.normal = (float4)(n, face_on * rsqrt(cos_view));
-        }
+        const float distance = length(to_eye), normal_length = length(sum->normal.xyz);
+        if (!(normal_length > 0.0f && distance > 0.0f)) break;
+        const float3 n = sum->normal.xyz / normal_length;
+        /* A surface seen edge-on is as long as its pixel is deep; a hundredth is enough. */
+        const float cos_view = fmax(fabs(dot(n, to_eye)) / distance, 0.01f);
+        const float face_on = distance * settings->pixel_angle;
+        set_place(&planes, places, surface, at, p, n, face_on, face_on * rsqrt(cos_view));
     }
-    surfaces[id] = s;
 }
 
 /* Variance from one sample to the next, unbiased, of whether a light is seen: at most 1/4. < 0: too few samples. */
@@ -48,80 +63,48 @@ inline float hemisphere_variance(float4 first, float4 second) {
     return d * d / (1.0f / first.w + 1.0f / second.w);
 }
 
-/* found: x and y, of a light: least and largest slope; of the hemisphere: 1 / z_min and z_max. x < 0: nothing was
-   found. z: variance from one sample to the next, < 0: not known. */
+/* WEDGE_FOUND_*. */
+inline float3 find(const DistanceRange d, float4 first, float4 second, int signal) {
+    const bool is_light = signal < WEDGE_SHADOW_LIGHTS;
+    float3 found = (float3)(-1.0f, 0.0f, -1.0f);
+    found.z = is_light ? visibility_variance(first + second) : hemisphere_variance(first, second);
+    if (!(d.farthest > 0.0f)) return found;
+    if (is_light) {
+        const float d1 = d.receiver / d.samples;
+        found.x = fmax(d1 / d.farthest - 1.0f, 0.0f);
+        found.y = fmax(d1 / fmax(d.nearest, 1e-6f * d1) - 1.0f, found.x);
+    } else {
+        found.x = 1.0f / fmax(d.nearest, 1e-6f * d.farthest);
+        found.y = d.farthest;
+    }
+    return found;
+}
+
+#define WEDGE_FOUND(planes, found, entry, what, at) \
+    (found)[((entry) * WEDGE_FOUND_PLANES + (what)) * (planes)->size + (at)]
+
 __kernel void filter_distances(__global const DistanceRange* restrict distances,
-                               __global const float4* restrict sums,
-                               __global float4* restrict found, uint count) {
-    const uint id = get_global_id(0);
-    if (id >= count) return;
-    const DistanceRange d = distances[id];
-    float4 result = (float4)(-1.0f, 0.0f, -1.0f, 0.0f);
-    result.z = id % WEDGE_SIGNALS < WEDGE_SHADOW_LIGHTS
-                   ? visibility_variance(sums[2 * id] + sums[2 * id + 1])
-                   : hemisphere_variance(sums[2 * id], sums[2 * id + 1]);
-    if (d.farthest > 0.0f) {
-        if (id % WEDGE_SIGNALS < WEDGE_SHADOW_LIGHTS) {
-            const float d1 = d.receiver / d.samples;
-            result.x = fmax(d1 / d.farthest - 1.0f, 0.0f);
-            result.y = fmax(d1 / fmax(d.nearest, 1e-6f * d1) - 1.0f, result.x);
-        } else {
-            result.x = 1.0f / fmax(d.nearest, 1e-6f * d.farthest);
-            result.y = d.farthest;
-        }
+                               __global const float4* restrict sums, __global float* restrict found,
+                               int width, int height) {
+    const int pixel = (int)get_global_id(0);
+    if (pixel >= width * height) return;
+    const Planes planes = make_planes(width, height);
+    const ulong at = pixel_at(&planes, pixel % width, pixel / width);
+    for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
+        const int id = pixel * WEDGE_SURFACES * WEDGE_SIGNALS + entry;
+        const float3 f = find(distances[id], sums[2 * id], sums[2 * id + 1], entry % WEDGE_SIGNALS);
+        WEDGE_FOUND(&planes, found, entry, WEDGE_FOUND_LEAST, at) = f.x;
+        WEDGE_FOUND(&planes, found, entry, WEDGE_FOUND_MOST, at) = f.y;
+        WEDGE_FOUND(&planes, found, entry, WEDGE_FOUND_VARIANCE, at) = f.z;
     }
-    found[id] = result;
 }
 
-/* The surface of pixel q that is like surface p; -1: none. */
-inline int same_surface(__global const FilterSurface* surfaces, FilterSurface p, int q) {
-    for (int k = 0; k < WEDGE_SURFACES; ++k) {
-        const FilterSurface s = surfaces[q * WEDGE_SURFACES + k];
-        if (s.position.w > 0.0f && is_same_surface(p, s))
-            return q * WEDGE_SURFACES + k;
-    }
-    return -1;
-}
-
-/* What the pixels of a neighbourhood found, as far as they show surface p. */
+/* What a group's pixels and those around them found. */
 typedef struct {
-    __global const FilterSurface* surfaces;
-    __global const float4* found;
-    int x, y, width, height;
+    __global const float *places, *found;
+    Planes planes;
+    Group group;
 } Neighbours;
-
-/* Mean over those within `radius` that found anything; x < 0: none did. */
-inline float2 mean_found(const Neighbours* n, FilterSurface p, int signal, int radius) {
-    float2 sum = (float2)(0.0f);
-    float count = 0.0f;
-    for (int j = max(n->y - radius, 0); j <= min(n->y + radius, n->height - 1); ++j) {
-        const int row = j * n->width * WEDGE_SURFACES;
-        const int first = row + max(n->x - radius, 0) * WEDGE_SURFACES;
-        const int end = row + (min(n->x + radius, n->width - 1) + 1) * WEDGE_SURFACES;
-        for (int q = first; q < end; ++q) {
-            const float2 f = n->found[q * WEDGE_SIGNALS + signal].xy;
-            if (f.x < 0.0f || !is_same_surface(p, n->surfaces[q])) continue;
-            sum += f;
-            count += 1.0f;
-        }
-    }
-    return count > 0.0f ? sum / count : (float2)(-1.0f, 0.0f);
-}
-
-/* Mean over those within `radius` that know it; < 0: none does. */
-inline float mean_variance(const Neighbours* n, FilterSurface p, int signal, int radius) {
-    float sum = 0.0f, count = 0.0f;
-    for (int j = max(n->y - radius, 0); j <= min(n->y + radius, n->height - 1); ++j)
-        for (int i = max(n->x - radius, 0); i <= min(n->x + radius, n->width - 1); ++i) {
-            const int q = same_surface(n->surfaces, p, j * n->width + i);
-            if (q < 0) continue;
-            const float variance = n->found[q * WEDGE_SIGNALS + signal].z;
-            if (variance < 0.0f) continue;
-            sum += variance;
-            count += 1.0f;
-        }
-    return count > 0.0f ? sum / count : -1.0f;
-}
 
 /* Probe samples that find no occluder say little about penumbrae near by: the pixel takes the mean of
    those of its neighbours that found one, as in the thesis, section 3.6. Nearest reflectors are a matter of luck
@@ -130,10 +113,125 @@ inline float mean_variance(const Neighbours* n, FilterSurface p, int signal, int
 #define SMOOTHING_PX 2
 #define VARIANCE_PX 1
 
-inline float2 found_near(const Neighbours* n, FilterSurface p, int id, int signal) {
-    if (signal >= WEDGE_SHADOW_LIGHTS) return mean_found(n, p, signal, SMOOTHING_PX);
-    const float2 own = n->found[id * WEDGE_SIGNALS + signal].xy;
-    return own.x < 0.0f ? mean_found(n, p, signal, NEIGHBOURHOOD_PX) : own;
+/* Sums over pixels that show a surface, of those numbers that are known. */
+typedef struct {
+    float8 least, most, found, variance, varied;
+} FoundSums;
+
+inline void add_variance(FoundSums* sums, float8 variance, int8 is_same) {
+    const int8 is_known = is_same & (variance >= 0.0f);
+    sums->variance += keep_lanes(variance, is_known);
+    sums->varied += keep_lanes((float8)(1.0f), is_known);
+}
+
+inline void add_found(FoundSums* sums, float8 least, float8 most, int8 is_same) {
+    const int8 is_known = is_same & (least >= 0.0f);
+    sums->least += keep_lanes(least, is_known);
+    sums->most += keep_lanes(most, is_known);
+    sums->found += keep_lanes((float8)(1.0f), is_known);
+}
+
+inline float8 load_found(const Neighbours* n, int surface, int signal, int what, ulong at) {
+    return load8(&n->planes, n->found, (surface * WEDGE_SIGNALS + signal) * WEDGE_FOUND_PLANES + what, at);
+}
+
+/* What pixels a step of (i, j) away found, as far as they show surface p. */
+inline void add_step(const Neighbours* n, const Places8* p, int i, int j, FoundSums sums[WEDGE_SIGNALS]) {
+    const ulong at = n->group.at + (ulong)((long)j * n->planes.pitch + i);
+    const int8 on_film = is_on_row(&n->planes, &n->group, i);
+    for (int other = 0; other < WEDGE_SURFACES; ++other) {
+        const Places8 q = load_places8(&n->planes, n->places, other, at);
+        const int8 is_there = on_film & (q.size > 0.0f);
+        if (!lane_bits8(is_there)) return;
+        const int8 is_same = is_there & is_same_surface8(p, &q);
+        for (int s = 0; s < WEDGE_SIGNALS; ++s) {
+            if (max(abs(i), abs(j)) <= VARIANCE_PX)
+                add_variance(sums + s, load_found(n, other, s, WEDGE_FOUND_VARIANCE, at), is_same);
+            if (s >= WEDGE_SHADOW_LIGHTS)
+                add_found(sums + s, load_found(n, other, s, WEDGE_FOUND_LEAST, at),
+                          load_found(n, other, s, WEDGE_FOUND_MOST, at), is_same);
+        }
+    }
+}
+
+/* Of a light, over the whole neighbourhood. Most of it mostly found nothing. */
+inline void add_neighbourhood(const Neighbours* n, const Places8* p, int signal, FoundSums* sums) {
+    const Planes* planes = &n->planes;
+    const int above = min(n->group.y, NEIGHBOURHOOD_PX);
+    const int below = min(planes->height - 1 - n->group.y, NEIGHBOURHOOD_PX);
+    for (int j = -above; j <= below; ++j)
+        for (int i = -NEIGHBOURHOOD_PX; i <= NEIGHBOURHOOD_PX; ++i) {
+            const ulong at = n->group.at + (ulong)((long)j * planes->pitch + i);
+            const int8 on_film = is_on_row(planes, &n->group, i);
+            for (int other = 0; other < WEDGE_SURFACES; ++other) {
+                const float8 least = load_found(n, other, signal, WEDGE_FOUND_LEAST, at);
+                const int8 is_known = on_film & (least >= 0.0f);
+                if (!lane_bits8(is_known)) continue;
+                const Places8 q = load_places8(planes, n->places, other, at);
+                const int8 is_same = is_known & (q.size > 0.0f) & is_same_surface8(p, &q);
+                add_found(sums, least, load_found(n, other, signal, WEDGE_FOUND_MOST, at), is_same);
+            }
+        }
+}
+
+/* Lights keep what the pixel itself found. */
+inline void store_near_by(const Neighbours* n, const Places8* p, int surface, int signal, FoundSums* sums,
+                          __global float* near_by) {
+    const Planes* planes = &n->planes;
+    const ulong at = n->group.at;
+    const float8 own = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at);
+    const int8 keeps = signal < WEDGE_SHADOW_LIGHTS ? own >= 0.0f : (int8)(0);
+    if (signal < WEDGE_SHADOW_LIGHTS && lane_bits8(~keeps & (p->size > 0.0f)))
+        add_neighbourhood(n, p, signal, sums);
+    const int8 is_found = sums->found > 0.0f;
+    const float8 least = is_found ? sums->least / sums->found : (float8)(-1.0f);
+    const float8 most = is_found ? sums->most / sums->found : (float8)(0.0f);
+    const int first = (surface * WEDGE_SIGNALS + signal) * WEDGE_FOUND_PLANES;
+    store8(keeps ? own : least, planes, near_by, first + WEDGE_FOUND_LEAST, at);
+    store8(keeps ? load_found(n, surface, signal, WEDGE_FOUND_MOST, at) : most, planes, near_by,
+           first + WEDGE_FOUND_MOST, at);
+    store8(sums->varied > 0.0f ? sums->variance / sums->varied : (float8)(-1.0f), planes, near_by,
+           first + WEDGE_FOUND_VARIANCE, at);
+}
+
+/* True in lanes where a pixel beside the group's, on the film, does not show surface p. */
+inline int8 ends_here(const Neighbours* n, const Places8* p) {
+    int8 ends = 0;
+    for (int k = 0; k < 4; ++k) {
+        const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
+        if (n->group.y + j < 0 || n->group.y + j >= n->planes.height) continue;
+        const ulong at = n->group.at + (ulong)((long)j * n->planes.pitch + i);
+        int8 goes_on = 0;
+        for (int other = 0; other < WEDGE_SURFACES; ++other) {
+            const Places8 q = load_places8(&n->planes, n->places, other, at);
+            goes_on |= (q.size > 0.0f) & is_same_surface8(p, &q);
+        }
+        ends |= is_on_row(&n->planes, &n->group, i) & ~goes_on;
+    }
+    return ends & (p->size > 0.0f);
+}
+
+/* near_by: as `found`, of the pixel or its neighbourhood. ends: 1 where a pixel's first surface does not go on. */
+__kernel void filter_neighbours(__global const float* restrict places,
+                                __global const float* restrict found, __global float* restrict near_by,
+                                __global float* restrict ends, int width, int height) {
+    Neighbours n = {places, found, make_planes(width, height)};
+    n.group = group_in_rows(&n.planes, (int)get_global_id(0));
+    if (!is_on_film(&n.planes, &n.group)) return;
+    const int radius = WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS ? SMOOTHING_PX : VARIANCE_PX;
+    const int above = min(n.group.y, radius), below = min(height - 1 - n.group.y, radius);
+    for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
+        const Places8 p = load_places8(&n.planes, places, surface, n.group.at);
+        if (surface == 0)
+            store8(ends_here(&n, &p) ? (float8)(1.0f) : (float8)(0.0f), &n.planes, ends, 0, n.group.at);
+        if (!lane_bits8(p.size > 0.0f)) break;
+        FoundSums sums[WEDGE_SIGNALS];
+        for (int s = 0; s < WEDGE_SIGNALS; ++s)
+            sums[s].least = sums[s].most = sums[s].found = sums[s].variance = sums[s].varied = 0.0f;
+        for (int j = -above; j <= below; ++j)
+            for (int i = -radius; i <= radius; ++i) add_step(&n, &p, i, j, sums);
+        for (int s = 0; s < WEDGE_SIGNALS; ++s) store_near_by(&n, &p, surface, s, sums + s, near_by);
+    }
 }
 
 /* Standard deviation taken for a light's profile; a uniform one is as wide as its half side. */
@@ -213,25 +311,24 @@ __kernel void filter_brightness(__global const FilmPixel* restrict film, __globa
 
 inline bool differs(float a, float b) { return fabs(a - b) > WEDGE_SAME_COLOUR * fmax(a, b); }
 
-/* Largest difference of brightness to the next pixels, if there is an edge; else 0. */
-inline float edge_contrast(__global const FilmPixel* film, __global const SurfaceSum* sums,
-                           const Neighbours* n) {
-    const int id = n->y * n->width + n->x;
-    const FilterSurface p = n->surfaces[id * WEDGE_SURFACES];
-    bool edge = sums[id * WEDGE_SURFACES].position.w != film[id].normal.w;
-    const float e = mean_emission(film + id), r = mean_reflectance(film + id);
-    const float b = brightness(film + id);
+/* Largest difference of brightness to the next pixels, if there is an edge; else 0. `is_edge`: the pixel's surface ends
+   beside it. */
+inline float edge_contrast(__global const FilmPixel* film, bool is_edge, int x, int y, int width, int height) {
+    __global const FilmPixel* own = film + y * width + x;
+    const float e = mean_emission(own), r = mean_reflectance(own), b = brightness(own);
     float contrast = 0.0f;
     for (int k = 0; k < 4; ++k) {
-        const int i = n->x + (k == 0) - (k == 1), j = n->y + (k == 2) - (k == 3);
-        if (i < 0 || i >= n->width || j < 0 || j >= n->height) continue;
-        __global const FilmPixel* other = film + j * n->width + i;
-        edge = edge || (p.position.w > 0.0f && same_surface(n->surfaces, p, j * n->width + i) < 0);
-        edge = edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
+        const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
+        if (x + i < 0 || x + i >= width || y + j < 0 || y + j >= height) continue;
+        __global const FilmPixel* other = own + j * width + i;
+        is_edge = is_edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
         contrast = fmax(contrast, fabs(b - brightness(other)));
     }
-    return edge ? contrast : 0.0f;
+    return is_edge ? contrast : 0.0f;
 }
+
+/* In the logarithm; v >= 1. The exponent of sqrt(2) v is that of v, rounded. */
+inline float nearest_power_of_two(float v) { return as_float(as_int(1.41421356f * v) & 0x7f800000); }
 
 /* Camera rays of a pixel. What they are for is the noise of coverage, whose square falls with n^-1.5 under a
    low-discrepancy sequence and rises with the square of the contrast C: for a given number of rays in all, the
@@ -242,7 +339,7 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast, flo
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges * pow(settings->mu, 4.0f / 3.0f) *
                     pow(contrast / mean_brightness, 0.8f);
-    return (uint)exp2(round(log2(clamp(n, 1.0f, WEDGE_MOST_CAMERA_RAYS))));
+    return (uint)nearest_power_of_two(clamp(n, 1.0f, WEDGE_MOST_CAMERA_RAYS));
 }
 
 /* Variance, from one sample to the next, of the radiance that a signal makes of a pixel. */
@@ -267,11 +364,11 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
 }
 
 /* Variance, from one sample to the next, of radiance that is not filtered: mean over 3x3 pixels. */
-inline float rest_variance(__global const HalfLight* unfiltered, const Neighbours* n) {
+inline float rest_variance(__global const HalfLight* unfiltered, int x, int y, int width, int height) {
     float sum = 0.0f, count = 0.0f;
-    for (int j = max(n->y - 1, 0); j <= min(n->y + 1, n->height - 1); ++j)
-        for (int i = max(n->x - 1, 0); i <= min(n->x + 1, n->width - 1); ++i) {
-            __global const HalfLight* u = unfiltered + j * n->width + i;
+    for (int j = max(y - 1, 0); j <= min(y + 1, height - 1); ++j)
+        for (int i = max(x - 1, 0); i <= min(x + 1, width - 1); ++i) {
+            __global const HalfLight* u = unfiltered + j * width + i;
             const float n0 = u->direct[0].w, n1 = u->direct[1].w;
             if (!(n0 > 0.0f && n1 > 0.0f)) continue;
             const float d = u->indirect[0].w / n0 - u->indirect[1].w / n1;
@@ -281,53 +378,70 @@ inline float rest_variance(__global const HalfLight* unfiltered, const Neighbour
     return count > 0.0f ? sum / count : 0.0f;
 }
 
-/* sigmas: world units, 0 where nothing is to be filtered. sample_ends: x, samples each pixel is brought to, powers
-   of two, which the sampler likes best; y: camera rays. */
+/* Width of a signal's filter and how many samples it asks for; `bright`: square of what counts as bright. */
+typedef struct {
+    float sigma, samples;
+} Need;
+
+inline Need signal_need(__constant FilterSettings* settings, __global const Light* lights,
+                        __global const SurfaceSum* sum, __global const float4* reflected, int signal,
+                        float3 found, float size, float slanted_size, float bright) {
+    const float2 bandwidth = signal_bandwidth(settings, lights, sum, signal, found.xy, slanted_size);
+    Need need = {bandwidth.x, 0.0f};
+    const float relative = radiance_variance(sum, reflected, signal, fmax(found.z, 0.0f)) / bright;
+    if (!(bandwidth.y > 0.0f && relative > 0.0f)) return need;
+    const float pixels = 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (size * slanted_size);
+    need.samples = fmax(fmin(4.0f * relative, 1.0f) * bandwidth.y,
+                        noise_samples(settings->mu, relative, pixels));
+    return need;
+}
+
+/* near_by, ends: of filter_neighbours. sigmas: world units, 0 where nothing is to be filtered. sample_ends: x, samples
+   each pixel is brought to, powers of two, which the sampler likes best; y: camera rays. */
 __kernel void filter_bandwidth(__constant FilterSettings* settings,
                                __global const Light* restrict lights,
                                __global const FilmPixel* restrict film,
                                __global const SurfaceSum* restrict surface_sums,
-                               __global const FilterSurface* restrict surfaces,
-                               __global const float4* restrict found, __global const float4* restrict reflected,
+                               __global const float* restrict places,
+                               __global const float* restrict near_by, __global const float* restrict ends,
+                               __global const float4* restrict reflected,
                                __global float* restrict sigmas, __global uint2* restrict sample_ends,
                                __global const HalfLight* restrict unfiltered, int width, int height,
                                float mean_brightness) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
+    const Planes planes = make_planes(width, height);
     const int x = pixel % width, y = pixel / width;
-    const Neighbours neighbours = {surfaces, found, x, y, width, height};
+    const ulong at = pixel_at(&planes, x, y);
     const float seen = fmax(film[pixel].normal.w, 1.0f);
     const float own = brightness(film + pixel);
     const float bright = fmax(own * own + mean_brightness * mean_brightness, 1e-30f);
     float samples = 0.0f;
     for (int k = 0; k < WEDGE_SURFACES; ++k) {
         const int id = pixel * WEDGE_SURFACES + k;
-        const FilterSurface p = surfaces[id];
+        const float size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SIZE, at);
+        if (!(size > 0.0f)) break;
+        const float slanted_size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SLANTED_SIZE, at);
         float most = 0.0f;
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
-            float2 bandwidth = (float2)(0.0f);
-            if (p.position.w > 0.0f)
-                bandwidth = signal_bandwidth(settings, lights, surface_sums + id, signal,
-                                             found_near(&neighbours, p, id, signal), p.normal.w);
-            sigmas[id * WEDGE_SIGNALS + signal] = bandwidth.x;
-            if (!(bandwidth.y > 0.0f)) continue;
-            const float variance = mean_variance(&neighbours, p, signal, VARIANCE_PX);
-            const float relative = radiance_variance(surface_sums + id, reflected + id * WEDGE_SHADOW_LIGHTS,
-                                                     signal, fmax(variance, 0.0f)) / bright;
-            if (!(relative > 0.0f)) continue;
-            const float pixels =
-                4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (p.position.w * p.normal.w);
-            most = fmax(most, fmin(4.0f * relative, 1.0f) * bandwidth.y);
-            most = fmax(most, noise_samples(settings->mu, relative, pixels));
+            const int entry = k * WEDGE_SIGNALS + signal;
+            const float3 found = {WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_LEAST, at),
+                                  WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_MOST, at),
+                                  WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_VARIANCE, at)};
+            const Need need = signal_need(settings, lights, surface_sums + id, reflected + id * WEDGE_SHADOW_LIGHTS,
+                                          signal, found, size, slanted_size, bright);
+            sigmas[entry * planes.size + at] = need.sigma;
+            most = fmax(most, need.samples);
         }
         if (most > 0.0f) samples += most * surface_sums[id].position.w / seen;
     }
-    samples = fmax(samples, noise_samples(settings->mu, rest_variance(unfiltered, &neighbours) / bright, 1.0f));
+    samples = fmax(samples, noise_samples(settings->mu, rest_variance(unfiltered, x, y, width, height) / bright, 1.0f));
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
     const float least = (float)settings->least_samples;
-    const float power = exp2(round(log2(clamp(samples, probes, cap))));
+    const float power = nearest_power_of_two(clamp(samples, probes, cap));
     const uint end = (uint)clamp(power, least, cap);
-    const float contrast = edge_contrast(film, surface_sums, &neighbours);
+    const bool is_edge = surface_sums[pixel * WEDGE_SURFACES].position.w != film[pixel].normal.w || ends[at] > 0.0f;
+    const float contrast = edge_contrast(film, is_edge, x, y, width, height);
     sample_ends[pixel] = (uint2)(end, max(end, camera_rays(settings, contrast, mean_brightness)));
 }
 

@@ -4,90 +4,169 @@
                        filtered, texture and unshadowed light
      filter_none       the same without a filter
    Widths are those of bandwidth.cl. What is done with the result: guard.cl.
-   Arrays: include/wedge/shared/filter.h. A mean holds both halves: two times rgb (of a light: irradiance with and
-   without shadow) and w, the share of the pixel. */
+   Arrays: include/wedge/shared/filter.h; places, sigmas and means in planes. Filters work on eight pixels side by side
+   (lib/planes.clh). */
 #include "lib/filter_weight.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
-/* Surfaces that are not there have no means, and nobody asks for them. */
+inline bool has_surface(const Planes* planes, __global const float* places, int surface, ulong at) {
+    return places[(surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE) * planes->size + at] > 0.0f;
+}
+
+/* Planes of means (wedge/shared/filter.h). */
+#define WEDGE_SURFACE_PLANES \
+    (WEDGE_LIGHT_PLANES * WEDGE_SHADOW_LIGHTS + WEDGE_HEMISPHERE_PLANES * (WEDGE_SIGNALS - WEDGE_SHADOW_LIGHTS))
+
+inline bool is_light(int signal) { return signal < WEDGE_SHADOW_LIGHTS; }
+
+inline int first_plane(int surface, int signal) {
+    const int lights = min(signal, WEDGE_SHADOW_LIGHTS);
+    return surface * WEDGE_SURFACE_PLANES + WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signal - lights);
+}
+
+inline void set_means(const Planes* planes, __global float* means, int surface, int signal, ulong at, float8 values) {
+    float list[8];
+    vstore8(values, 0, list);
+    const int count = is_light(signal) ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES;
+    for (int c = 0; c < count; ++c)
+        means[(first_plane(surface, signal) + c) * planes->size + at] = list[c];
+}
+
+inline float8 get_means(const Planes* planes, __global const float* means, int surface, int signal, ulong at) {
+    float list[8] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    const int count = is_light(signal) ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES;
+    for (int c = 0; c < count; ++c)
+        list[c] = means[(first_plane(surface, signal) + c) * planes->size + at];
+    return vload8(0, list);
+}
+
+/* Surfaces that are not there keep means of 0. */
 __kernel void filter_means(__global const HalfLight* restrict unfiltered,
-                           __global const FilterSurface* restrict surfaces,
-                           __global const float4* restrict sums, __global float8* restrict means,
-                           uint count) {
-    const uint id = get_global_id(0);
-    if (id >= count || !(surfaces[id / WEDGE_SIGNALS].position.w > 0.0f)) return;
-    __global const HalfLight* pixel = unfiltered + id / (WEDGE_SURFACES * WEDGE_SIGNALS);
-    const float first = pixel->direct[0].w, second = pixel->direct[1].w;
-    const float4 a = first > 0.0f ? sums[2 * id] / first : (float4)(0.0f);
-    const float4 b = second > 0.0f ? sums[2 * id + 1] / second : a;
-    means[id] = (float8)(a, b);
+                           __global const float* restrict places, __global const float4* restrict sums,
+                           __global float* restrict means, int width, int height) {
+    const int pixel = (int)get_global_id(0);
+    if (pixel >= width * height) return;
+    const Planes planes = make_planes(width, height);
+    const ulong at = pixel_at(&planes, pixel % width, pixel / width);
+    const float first = unfiltered[pixel].direct[0].w, second = unfiltered[pixel].direct[1].w;
+    __global const float4* s = sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2;
+    for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
+        const int surface = entry / WEDGE_SIGNALS, signal = entry % WEDGE_SIGNALS;
+        if (!has_surface(&planes, places, surface, at)) break;
+        const float4 a = first > 0.0f ? s[2 * entry] / first : (float4)(0.0f);
+        const float4 b = second > 0.0f ? s[2 * entry + 1] / second : a;
+        const float8 values = is_light(signal) ? (float8)(a.xy, b.xy, 0.0f, 0.0f, 0.0f, 0.0f) : (float8)(a, b);
+        set_means(&planes, means, surface, signal, at, values);
+    }
 }
 
-inline float3 filter_axis(__global const Light* lights, int signal) {
-    return signal < WEDGE_SHADOW_LIGHTS ? lights[signal].normal.xyz : (float3)(0.0f);
-}
-
-/* The pixels first, first + stride, ... of one row or column that a filter may reach from the pixel `first`. */
+/* What a filter reads. `signals`: means, or what filter_x has made of them. `scale`: of widths. */
 typedef struct {
-    int pixel, stride, before, after;
+    __constant FilterSettings* settings;
+    __global const Light* lights;
+    __global const float *places, *sigmas, *signals;
+    Planes planes;
+    float scale;
+} Filter;
+
+inline float3 filter_axis(const Filter* filter, int signal) {
+    return signal < WEDGE_SHADOW_LIGHTS ? filter->lights[signal].normal.xyz : (float3)(0.0f);
+}
+
+/* The pixels of a row or a column that filters for a group may reach: `before` to the one side, `after` to the other.
+   From one to the next it is `stride` floats and `columns` to the right. */
+typedef struct {
+    int before, after, columns;
+    long stride;
 } Line;
 
-/* Sums over a line, normalised, of all signals of surface `id`: they share the geometry. */
-inline void filter_line(__constant FilterSettings* settings, __global const Light* lights,
-                        __global const FilterSurface* surfaces, __global const float* sigmas,
-                        __global const float8* means, float8* filtered, Line line, int id, float scale) {
-    const FilterSurface p = surfaces[id];
-    float sigma[WEDGE_SIGNALS], weights[WEDGE_SIGNALS], widest = 0.0f;
-    for (int s = 0; s < WEDGE_SIGNALS; ++s) {
-        sigma[s] = sigmas[id * WEDGE_SIGNALS + s] * scale;
-        filtered[s] = means[id * WEDGE_SIGNALS + s];
-        weights[s] = 1.0f;
-        widest = fmax(widest, sigma[s]);
-    }
-    const int radius = min((int)ceil(3.0f * widest / p.position.w), settings->max_radius_px);
+inline float8 filter_sigma8(const Filter* filter, int entry, ulong at) {
+    return load8(&filter->planes, filter->sigmas, entry, at) * filter->scale;
+}
+
+/* Pixels to each side that have a weight; 0 where nothing is to be filtered. */
+inline float8 filter_reach8(const Filter* filter, const Places8* p, float8 sigma) {
+    const float8 reach = ceil(3.0f * sigma / p->size);
+    const int8 filters = (sigma > 0.0f) & (p->size > 0.0f);
+    return keep_lanes(lesser8(reach, (float8)((float)filter->settings->max_radius_px)), filters);
+}
+
+/* The means of a signal in eight pixels. Lights have the first WEDGE_LIGHT_PLANES only. */
+typedef struct {
+    float8 v0, v1, v2, v3, v4, v5, v6, v7;
+} Means8;
+
+inline void add_means8(Means8* sums, float8 weights, const Filter* filter, int surface, int signal, ulong at) {
+    const ulong size = filter->planes.size;
+    __global const float* v = filter->signals + first_plane(surface, signal) * size + at;
+    sums->v0 += weights * vload8(0, v);
+    sums->v1 += weights * vload8(0, v + size);
+    sums->v2 += weights * vload8(0, v + 2 * size);
+    sums->v3 += weights * vload8(0, v + 3 * size);
+    if (is_light(signal)) return;
+    sums->v4 += weights * vload8(0, v + 4 * size);
+    sums->v5 += weights * vload8(0, v + 5 * size);
+    sums->v6 += weights * vload8(0, v + 6 * size);
+    sums->v7 += weights * vload8(0, v + 7 * size);
+}
+
+/* Means over a line, by weight, of one signal of one surface of a group's pixels, plane by plane. */
+inline void filter_line(const Filter* filter, const Group* group, Line line, int surface, int signal,
+                        float filtered[WEDGE_HEMISPHERE_PLANES][WEDGE_LANES]) {
+    const Planes* planes = &filter->planes;
+    const Places8 p = load_places8(planes, filter->places, surface, group->at);
+    const float8 sigma = filter_sigma8(filter, surface * WEDGE_SIGNALS + signal, group->at);
+    const float8 reach = filter_reach8(filter, &p, sigma);
+    const float3 along = filter_axis(filter, signal);
+    float8 weights = 1.0f;
+    Means8 sums = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    add_means8(&sums, weights, filter, surface, signal, group->at);
+
+    const int radius = (int)largest_lane(reach);
     for (int i = -min(radius, line.before); i <= min(radius, line.after); ++i) {
-        const int first = (line.pixel + i * line.stride) * WEDGE_SURFACES;
-        for (int q = first; i != 0 && q < first + WEDGE_SURFACES; ++q) {
-            const FilterSurface other = surfaces[q];
-            if (!(other.position.w > 0.0f) || !is_same_surface(p, other)) continue;
-            const float3 d = other.position.xyz - p.position.xyz;
-            for (int s = 0; s < WEDGE_SIGNALS; ++s) {
-                /* Not fmin, whose rules for NaN cost more. */
-                const float theirs = sigmas[q * WEDGE_SIGNALS + s] * scale;
-                const float narrow = sigma[s] < theirs ? sigma[s] : theirs;
-                if (!(narrow > 0.0f)) continue;
-                const float w = distance_weight(d, narrow, filter_axis(lights, s));
-                if (!(w > 0.0f)) continue;
-                filtered[s] += w * means[q * WEDGE_SIGNALS + s];
-                weights[s] += w;
-            }
+        if (i == 0) continue;
+        const ulong at = group->at + (ulong)(i * line.stride);
+        const int8 reached = (reach >= fabs((float)i)) & is_on_row(planes, group, i * line.columns);
+        for (int other = 0; other < WEDGE_SURFACES; ++other) {
+            const Places8 q = load_places8(planes, filter->places, other, at);
+            const int8 is_there = reached & (q.size > 0.0f);
+            if (!lane_bits8(is_there)) break;
+            const float8 sigma_q = filter_sigma8(filter, other * WEDGE_SIGNALS + signal, at);
+            const float8 w = keep_lanes(filter_weight8(&p, sigma, &q, sigma_q, along), is_there);
+            if (!lane_bits8(w > 0.0f)) continue;
+            add_means8(&sums, w, filter, other, signal, at);
+            weights += w;
         }
     }
-    for (int s = 0; s < WEDGE_SIGNALS; ++s) filtered[s] /= weights[s];
+    const float8 share = 1.0f / weights;
+    vstore8(sums.v0 * share, 0, filtered[0]);
+    vstore8(sums.v1 * share, 0, filtered[1]);
+    vstore8(sums.v2 * share, 0, filtered[2]);
+    vstore8(sums.v3 * share, 0, filtered[3]);
+    vstore8(sums.v4 * share, 0, filtered[4]);
+    vstore8(sums.v5 * share, 0, filtered[5]);
+    vstore8(sums.v6 * share, 0, filtered[6]);
+    vstore8(sums.v7 * share, 0, filtered[7]);
 }
 
-/* One half of a signal. Where none of its samples met the surface, the other half stands in. */
-inline float4 half_of(float8 f, int h) {
-    const float4 own = h == 0 ? f.s0123 : f.s4567, other = h == 0 ? f.s4567 : f.s0123;
-    return own.w > 0.0f ? own : other;
-}
-
-/* Adds what a surface makes of its signals. `samples`: of the whole pixel. */
-inline void add_surface(HalfLight* light, __global const SurfaceSum* sum,
-                        __global const float4* reflected, const float8* signals, float samples) {
-    for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
-        for (int h = 0; h < 2; ++h) {
-            const float4 v = half_of(signals[signal], h);
-            if (signal < WEDGE_SHADOW_LIGHTS) {
-                const float visibility = v.y > 0.0f ? v.x / v.y : 0.0f;
-                light->direct[h].xyz += reflected[signal].xyz * (visibility / samples);
-            } else if (v.w > 0.0f) {
-                const float3 colour =
-                    signal == WEDGE_SIGNAL_DIFFUSE ? sum->diffuse.xyz : sum->specular.xyz;
-                light->indirect[h].xyz += colour * v.xyz / (v.w * samples);
-            }
-        }
+/* Adds what a surface makes of a signal's means. Where none of a half's samples met the surface, the other half stands
+   in. `samples`: of the whole pixel. */
+inline void add_light(HalfLight* light, __global const SurfaceSum* sum, __global const float4* reflected,
+                      int signal, float8 means, float samples) {
+    const float share = 1.0f / samples;
+    if (is_light(signal)) {
+        const float2 seen0 = means.y > 0.0f ? means.s01 : means.s23;
+        const float2 seen1 = means.w > 0.0f ? means.s23 : means.s01;
+        const float3 whole = reflected[signal].xyz * share;
+        light->direct[0].xyz += whole * (seen0.y > 0.0f ? seen0.x / seen0.y : 0.0f);
+        light->direct[1].xyz += whole * (seen1.y > 0.0f ? seen1.x / seen1.y : 0.0f);
+    } else {
+        const float4 half0 = means.s3 > 0.0f ? means.lo : means.hi;
+        const float4 half1 = means.s7 > 0.0f ? means.hi : means.lo;
+        const float3 colour = share * (signal == WEDGE_SIGNAL_DIFFUSE ? sum->diffuse.xyz : sum->specular.xyz);
+        light->indirect[0].xyz += colour * half0.xyz * (half0.w > 0.0f ? 1.0f / half0.w : 0.0f);
+        light->indirect[1].xyz += colour * half1.xyz * (half1.w > 0.0f ? 1.0f / half1.w : 0.0f);
     }
 }
 
@@ -97,59 +176,88 @@ inline HalfLight no_light(void) {
     return light;
 }
 
-__kernel void filter_none(__global const FilmPixel* restrict film,
+__kernel void filter_none(__global const float* restrict places, __global const FilmPixel* restrict film,
                           __global const SurfaceSum* restrict sums,
                           __global const float4* restrict reflected,
-                          __global const float8* restrict means, __global HalfLight* restrict light,
-                          uint count) {
-    const uint pixel = get_global_id(0);
-    if (pixel >= count) return;
+                          __global const float* restrict means, __global HalfLight* restrict light,
+                          int width, int height) {
+    const int pixel = (int)get_global_id(0);
+    if (pixel >= width * height) return;
+    const Planes planes = make_planes(width, height);
+    const ulong at = pixel_at(&planes, pixel % width, pixel / width);
     HalfLight result = no_light();
-    for (uint id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id) {
-        if (!(sums[id].position.w > 0.0f)) continue;
-        float8 own[WEDGE_SIGNALS];
-        for (int s = 0; s < WEDGE_SIGNALS; ++s) own[s] = means[id * WEDGE_SIGNALS + s];
-        add_surface(&result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, own,
-                    fmax(film[pixel].normal.w, 1.0f));
+    for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
+        const int surface = entry / WEDGE_SIGNALS, id = pixel * WEDGE_SURFACES + surface;
+        if (!has_surface(&planes, places, surface, at)) break;
+        const int signal = entry % WEDGE_SIGNALS;
+        add_light(&result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal,
+                  get_means(&planes, means, surface, signal, at), fmax(film[pixel].normal.w, 1.0f));
     }
     light[pixel] = result;
 }
 
-__kernel void filter_x(__constant FilterSettings* settings, __global const Light* restrict lights,
-                       __global const FilterSurface* restrict surfaces,
-                       __global const float* restrict sigmas, __global const float8* restrict means,
-                       int width, int height, float scale, __global float8* restrict filtered) {
-    const int pixel = (int)get_global_id(0);
-    if (pixel >= width * height) return;
-    const int x = pixel % width;
-    const Line line = {pixel, 1, x, width - 1 - x};
-    for (int id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id) {
-        if (!(surfaces[id].position.w > 0.0f)) continue;
-        float8 row[WEDGE_SIGNALS];
-        filter_line(settings, lights, surfaces, sigmas, means, row, line, id, scale);
-        for (int s = 0; s < WEDGE_SIGNALS; ++s) filtered[id * WEDGE_SIGNALS + s] = row[s];
+#define WEDGE_FILTER_PARAMS                                                                        \
+    __constant FilterSettings *settings, __global const Light *restrict lights,                    \
+        __global const float *restrict places, __global const float *restrict sigmas,              \
+        __global const float *restrict signals, int width, int height, float scale
+#define WEDGE_FILTER_ARGS \
+    { settings, lights, places, sigmas, signals, make_planes(width, height), scale }
+
+__kernel void filter_x(WEDGE_FILTER_PARAMS, __global float* restrict filtered) {
+    const Filter filter = WEDGE_FILTER_ARGS;
+    const Group group = group_in_rows(&filter.planes, (int)get_global_id(0));
+    if (!is_on_film(&filter.planes, &group)) return;
+    const Line line = {group.x + WEDGE_LANES - 1, width - 1 - group.x, 1, 1};
+    for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
+        const int surface = entry / WEDGE_SIGNALS;
+        const float8 size = load8(&filter.planes, places,
+                                  surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, group.at);
+        if (!lane_bits8(size > 0.0f)) break;
+        const int signal = entry % WEDGE_SIGNALS;
+        float row[WEDGE_HEMISPHERE_PLANES][WEDGE_LANES];
+        filter_line(&filter, &group, line, surface, signal, row);
+        for (int c = 0; c < (is_light(signal) ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES); ++c)
+            store8(vload8(0, row[c]), &filter.planes, filtered, first_plane(surface, signal) + c, group.at);
     }
 }
 
-/* `rows`: what filter_x has made. `index`: place of `scale` in WEDGE_SCALE_WIDTHS. */
-__kernel void filter_y(__constant FilterSettings* settings, __global const Light* restrict lights,
-                       __global const FilterSurface* restrict surfaces,
-                       __global const float* restrict sigmas, __global const float8* restrict rows,
-                       int width, int height, float scale, __global const FilmPixel* restrict film,
+/* Of all signals of one surface, to the group's pixels. */
+inline void filter_surface(const Filter* filter, const Group* group, Line line, int surface,
+                           __global const FilmPixel* film, __global const SurfaceSum* sums,
+                           __global const float4* reflected, HalfLight* light) {
+    const int first = group->y * filter->planes.width + group->x;
+    const int lanes = min(WEDGE_LANES, filter->planes.width - group->x);
+    for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
+        float column[WEDGE_HEMISPHERE_PLANES][WEDGE_LANES];
+        filter_line(filter, group, line, surface, signal, column);
+        for (int lane = 0; lane < lanes; ++lane) {
+            if (!has_surface(&filter->planes, filter->places, surface, group->at + lane)) continue;
+            const float8 means = (float8)(column[0][lane], column[1][lane], column[2][lane], column[3][lane],
+                                          column[4][lane], column[5][lane], column[6][lane], column[7][lane]);
+            const int pixel = first + lane, id = pixel * WEDGE_SURFACES + surface;
+            add_light(light + lane, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal, means,
+                      fmax(film[pixel].normal.w, 1.0f));
+        }
+    }
+}
+
+/* `signals`: what filter_x has made. `index`: place of `scale` in WEDGE_SCALE_WIDTHS. */
+__kernel void filter_y(WEDGE_FILTER_PARAMS, __global const FilmPixel* restrict film,
                        __global const SurfaceSum* restrict sums,
                        __global const float4* restrict reflected,
                        __global HalfLight* restrict light, int index) {
-    const int pixel = (int)get_global_id(0);
-    if (pixel >= width * height) return;
-    const int y = pixel / width;
-    const Line line = {pixel, width, y, height - 1 - y};
-    HalfLight result = no_light();
-    for (int id = pixel * WEDGE_SURFACES; id < (pixel + 1) * WEDGE_SURFACES; ++id) {
-        if (!(surfaces[id].position.w > 0.0f)) continue;
-        float8 filtered[WEDGE_SIGNALS];
-        filter_line(settings, lights, surfaces, sigmas, rows, filtered, line, id, scale);
-        add_surface(&result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, filtered,
-                    fmax(film[pixel].normal.w, 1.0f));
+    const Filter filter = WEDGE_FILTER_ARGS;
+    const Group group = group_in_columns(&filter.planes, (int)get_global_id(0));
+    if (!is_on_film(&filter.planes, &group)) return;
+    const Line line = {group.y, height - 1 - group.y, 0, filter.planes.pitch};
+    HalfLight result[WEDGE_LANES];
+    for (int lane = 0; lane < WEDGE_LANES; ++lane) result[lane] = no_light();
+    for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
+        const float8 size = load8(&filter.planes, places,
+                                  surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, group.at);
+        if (!lane_bits8(size > 0.0f)) break;
+        filter_surface(&filter, &group, line, surface, film, sums, reflected, result);
     }
-    light[index * width * height + pixel] = result;
+    const int first = index * width * height + group.y * width + group.x;
+    for (int lane = 0; lane < min(WEDGE_LANES, width - group.x); ++lane) light[first + lane] = result[lane];
 }

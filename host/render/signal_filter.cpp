@@ -25,7 +25,7 @@ constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film'
 
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 12;       // of filter_y
-constexpr cl_uint kBrightnessArg = 12;  // of filter_bandwidth
+constexpr cl_uint kBrightnessArg = 13;  // of filter_bandwidth
 
 int mode_of(FilterMode mode) {
     switch (mode) {
@@ -43,6 +43,11 @@ template <typename... Args>
 void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
     cl_uint index = 0;
     (kernel.setArg(index++, args), ...);
+}
+
+/// Of a surface.
+uint64_t mean_planes(uint64_t lights, uint64_t signals) {
+    return WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signals - lights);
 }
 
 template <typename T>
@@ -85,10 +90,13 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
     return {
         {"sample counts", pixels * (sizeof(SampleEnds) + sizeof(cl_uint))},
         {"surfaces of pixels",
-         surfaces * (sizeof(shared::SurfaceSum) + sizeof(shared::FilterSurface))},
+         surfaces * (sizeof(shared::SurfaceSum) + WEDGE_PLACE_PLANES * sizeof(float))},
         {"signals, sampled", entries * 2 * sizeof(shared::float4)},
-        {"signals, filtered", entries * 2 * sizeof(cl_float8)},
-        {"distances", entries * (sizeof(shared::DistanceRange) + sizeof(shared::float4))},
+        {"signals, filtered",
+         surfaces * 2 * mean_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals)) *
+             sizeof(float)},
+        {"distances",
+         entries * (sizeof(shared::DistanceRange) + 2 * WEDGE_FOUND_PLANES * sizeof(float))},
         {"filter widths", entries * sizeof(float)},
         {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
         {"light before and after filters", pixels * (1 + WEDGE_SCALES) * sizeof(shared::HalfLight)},
@@ -134,16 +142,27 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     distances_ = upload(std::vector<shared::DistanceRange>(entries, nothing), "distances");
     reflected_ = upload(std::vector<shared::float4>(surfaces * lights_), "unshadowed light");
     unfiltered_ = upload(std::vector<shared::HalfLight>(pixels), "unfiltered light");
-    surfaces_ = device_.allocate(surfaces * sizeof(shared::FilterSurface), "places of surfaces");
-    found_ = device_.allocate(entries * sizeof(shared::float4), "slopes and depths");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
-    sigmas_ = device_.allocate(entries * sizeof(float), "filter widths");
-    means_ = device_.allocate(entries * sizeof(cl_float8), "means of signals");
-    filtered_ = device_.allocate(entries * sizeof(cl_float8), "half-filtered signals");
+    allocate_planes();
     light_ = device_.allocate(WEDGE_SCALES * pixels * sizeof(shared::HalfLight), "filtered light");
     for (cl::Buffer* errors : {&errors_, &smoothed_})
         *errors = device_.allocate(pixels * sizeof(shared::FilterErrors), "errors of filters");
     guarded_ = device_.allocate(pixels * sizeof(shared::GuardedPixel), "guarded light");
+}
+
+void SignalFilter::allocate_planes() {
+    const uint64_t surfaces = WEDGE_SURFACES, entries = surfaces * signals_;
+    const auto planes = [&](uint64_t count, const char* what) {
+        const uint64_t floats = count * plane_size() + 2 * WEDGE_PLANE_MARGIN;
+        return device_.allocate_zeros(floats * sizeof(float), what);
+    };
+    places_ = planes(surfaces * WEDGE_PLACE_PLANES, "places of surfaces");
+    found_ = planes(entries * WEDGE_FOUND_PLANES, "slopes and depths");
+    near_by_ = planes(entries * WEDGE_FOUND_PLANES, "slopes and depths near by");
+    ends_ = planes(1, "edges of surfaces");
+    sigmas_ = planes(entries, "filter widths");
+    means_ = planes(surfaces * mean_planes(lights_, signals_), "means of signals");
+    filtered_ = planes(surfaces * mean_planes(lights_, signals_), "half-filtered signals");
 }
 
 void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats) {
@@ -152,6 +171,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     const device::Program &bandwidth = programs[0], &filters = programs[1], &guard = programs[2];
     surfaces_kernel_ = bandwidth.kernel("filter_surfaces");
     distances_kernel_ = bandwidth.kernel("filter_distances");
+    neighbours_kernel_ = bandwidth.kernel("filter_neighbours");
     brightness_kernel_ = bandwidth.kernel("filter_brightness");
     bandwidth_kernel_ = bandwidth.kernel("filter_bandwidth");
     merge_kernel_ = bandwidth.kernel("filter_merge_halves");
@@ -175,18 +195,21 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
 
 void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     const auto width = cl_int(film_width), height = cl_int(film_height);
-    const auto pixels = cl_uint(film_width * film_height), surfaces = pixels * WEDGE_SURFACES;
-    set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, surfaces_, surfaces);
-    set_kernel_args(distances_kernel_, distances_, sums_, found_, surfaces * signals_);
+    const auto pixels = cl_uint(film_width * film_height);
+    set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, places_, width, height);
+    set_kernel_args(distances_kernel_, distances_, sums_, found_, width, height);
+    set_kernel_args(neighbours_kernel_, places_, found_, near_by_, ends_, width, height);
     set_kernel_args(brightness_kernel_, film_, rows_, width, height);
-    set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, surfaces_,
-                    found_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height, 0.0f);
+    set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, places_,
+                    near_by_, ends_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height,
+                    0.0f);
     set_kernel_args(merge_kernel_, settings_, sample_ends_, sums_, unfiltered_, pixels);
-    set_kernel_args(means_kernel_, unfiltered_, surfaces_, sums_, means_, surfaces * signals_);
-    set_kernel_args(filter_none_, film_, surface_sums_, reflected_, means_, light_, pixels);
-    set_kernel_args(filter_x_, settings_, light_list_, surfaces_, sigmas_, means_, width, height,
+    set_kernel_args(means_kernel_, unfiltered_, places_, sums_, means_, width, height);
+    set_kernel_args(filter_none_, places_, film_, surface_sums_, reflected_, means_, light_, width,
+                    height);
+    set_kernel_args(filter_x_, settings_, light_list_, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
-    set_kernel_args(filter_y_, settings_, light_list_, surfaces_, sigmas_, filtered_, width, height,
+    set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,
                     1.0f, film_, surface_sums_, reflected_, light_, cl_int(0));
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, pixels);
     set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
@@ -204,9 +227,10 @@ double SignalFilter::run(std::span<const Launch> launches) {
 }
 
 double SignalFilter::measure_bandwidth(bool goes_on) {
-    const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
-    const Launch measured[] = {{surfaces_kernel_, surfaces},
-                               {distances_kernel_, surfaces * signals_},
+    const uint64_t pixels = pixel_count();
+    const Launch measured[] = {{surfaces_kernel_, pixels},
+                               {distances_kernel_, pixels},
+                               {neighbours_kernel_, group_count()},
                                {brightness_kernel_, height_}};
     double seconds = run(measured);
     bandwidth_kernel_.setArg(kBrightnessArg, mean_brightness());
@@ -226,16 +250,15 @@ void SignalFilter::write_pixel_list(std::span<const uint32_t> pixels) {
 
 double SignalFilter::filter() {
     constexpr float widths[] = WEDGE_SCALE_WIDTHS;
-    const uint64_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
+    const uint64_t pixels = pixel_count(), groups = group_count();
     // Where the samples met the scene is better known now than after the probe.
-    double seconds =
-        run(std::array{Launch{surfaces_kernel_, surfaces},
-                       Launch{means_kernel_, surfaces * signals_}, Launch{filter_none_, pixels}});
+    double seconds = run(std::array{Launch{surfaces_kernel_, pixels}, Launch{means_kernel_, pixels},
+                                    Launch{filter_none_, pixels}});
     for (int scale = 1; scale < WEDGE_SCALES; ++scale) {
         filter_x_.setArg(kScaleArg, widths[scale]);
         filter_y_.setArg(kScaleArg, widths[scale]);
         filter_y_.setArg(kIndexArg, cl_int(scale));
-        seconds += run(std::array{Launch{filter_x_, pixels}, Launch{filter_y_, pixels}});
+        seconds += run(std::array{Launch{filter_x_, groups}, Launch{filter_y_, groups}});
     }
     const Launch guard[] = {
         {guard_errors_, pixels}, {smooth_x_, pixels}, {smooth_y_, pixels}, {choose_, pixels}};
@@ -256,16 +279,22 @@ FilteredLight SignalFilter::read_light() {
 }
 
 SignalLayers SignalFilter::read_layers(uint32_t signal) {
-    const std::size_t pixels = pixel_count(), surfaces = pixels * WEDGE_SURFACES;
-    const auto sigmas = read<float>(device_, sigmas_, surfaces * signals_);
-    const auto places = read<shared::FilterSurface>(device_, surfaces_, surfaces);
-    const auto distances = read<shared::DistanceRange>(device_, distances_, surfaces * signals_);
+    const std::size_t pixels = pixel_count(), pitch = WEDGE_PLANE_PITCH(width_);
+    const auto planes = [&](const cl::Buffer& buffer, std::size_t count) {
+        return read<float>(device_, buffer, WEDGE_PLANE_MARGIN + count * plane_size());
+    };
+    const auto sigmas = planes(sigmas_, signal + 1);
+    const auto places = planes(places_, WEDGE_PLACE_PLANES);
+    const auto distances =
+        read<shared::DistanceRange>(device_, distances_, pixels * WEDGE_SURFACES * signals_);
     SignalLayers layers;
     for (std::vector<float>* layer : {&layers.width_px, &layers.nearest, &layers.farthest})
         layer->assign(pixels, 0.0f);
     for (std::size_t i = 0; i < pixels; ++i) {
-        const std::size_t first = i * WEDGE_SURFACES, entry = first * signals_ + signal;
-        if (places[first].normal.w > 0) layers.width_px[i] = sigmas[entry] / places[first].normal.w;
+        const std::size_t at = WEDGE_PLANE_MARGIN + i / width_ * pitch + i % width_;
+        const std::size_t entry = i * WEDGE_SURFACES * signals_ + signal;
+        const float size = places[WEDGE_PLACE_SLANTED_SIZE * plane_size() + at];
+        if (size > 0) layers.width_px[i] = sigmas[signal * plane_size() + at] / size;
         if (distances[entry].farthest > 0) {
             layers.nearest[i] = distances[entry].nearest;
             layers.farthest[i] = distances[entry].farthest;

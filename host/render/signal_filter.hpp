@@ -6,6 +6,7 @@
 #include "host/render/path_tracer.hpp"
 #include "host/render/stages.hpp"
 #include "wedge/shared/filter.h"
+#include "wedge/shared/planes.h"
 
 namespace wedge::rendering {
 
@@ -64,7 +65,12 @@ class SignalFilter {
         uint64_t count;
     };
 
+    /// Floats in a plane, and groups of pixels that are filtered at once (shared/planes.h).
+    uint64_t plane_size() const { return uint64_t(WEDGE_PLANE_PITCH(width_)) * height_; }
+    uint64_t group_count() const { return plane_size() / WEDGE_LANES; }
+
     void allocate(const shared::FilterSettings& settings);
+    void allocate_planes();
     float mean_brightness();
     double run(std::span<const Launch> launches);
     void compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats);
@@ -76,10 +82,11 @@ class SignalFilter {
     cl::Buffer light_list_, params_, film_;
     cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, sums_, distances_,
         reflected_, unfiltered_;
-    cl::Buffer surfaces_, found_, sigmas_, means_, filtered_, light_, errors_, smoothed_, guarded_;
-    cl::Kernel surfaces_kernel_, distances_kernel_, brightness_kernel_, bandwidth_kernel_,
-        merge_kernel_, means_kernel_, filter_none_, filter_x_, filter_y_, guard_errors_, smooth_x_,
-        smooth_y_, choose_;
+    cl::Buffer places_, found_, near_by_, ends_, sigmas_, means_, filtered_;  // in planes
+    cl::Buffer light_, errors_, smoothed_, guarded_;
+    cl::Kernel surfaces_kernel_, distances_kernel_, neighbours_kernel_, brightness_kernel_,
+        bandwidth_kernel_, merge_kernel_, means_kernel_, filter_none_, filter_x_, filter_y_,
+        guard_errors_, smooth_x_, smooth_y_, choose_;
 };
 
 }  // namespace wedge::rendering

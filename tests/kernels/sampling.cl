@@ -89,17 +89,18 @@ __kernel void eval_shadow_bandwidth(__global const float4* in, float4 settings, 
         shadow_sample_count(p.x, p.y, p.z, p.w, settings.x, settings.y));
 }
 
+inline Places8 place8(float4 position, float4 normal, float pixel) {
+    const Places8 p = {position.x, position.y, position.z, pixel, normal.x, normal.y, normal.z};
+    return p;
+}
+
 /* in: position, width of the filter; normal. Weights of each for the first. */
 __kernel void eval_filter_weights(__global const float4* positions, __global const float4* normals,
                                   float4 along, float pixel, uint count, __global float4* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    FilterSurface p, q;
-    p.position = (float4)(positions[0].xyz, pixel);
-    p.normal = (float4)(normals[0].xyz, pixel);
-    q.position = (float4)(positions[id].xyz, pixel);
-    q.normal = (float4)(normals[id].xyz, pixel);
-    out[id] = (float4)(filter_weight(p, positions[0].w, q, positions[id].w, along.xyz));
+    const Places8 p = place8(positions[0], normals[0], pixel), q = place8(positions[id], normals[id], pixel);
+    out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, along.xyz).s5);
 }
 
 /* in: turn; cosine; y, x. out: sine and cosine; arc_cosine; arc_of */

@@ -58,9 +58,10 @@ TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
     options.bounces = 1;
     const uint64_t more =
         render(shiny, options).stats.device_bytes - render(matt, options).stats.device_bytes;
-    // One signal: sums, means and filtered means in two halves, distances, width.
+    // One signal: sums, means and filtered means in two halves, distances, what they
+    // say of the pixel and of its neighbourhood, width.
     const uint64_t entries = 32 * 24 * WEDGE_SURFACES;
-    CHECK(more == entries * (32 + 64 + 16 + 16 + 4));
+    CHECK(more == entries * (32 + 64 + 16 + 2 * 12 + 4));
 }
 
 }  // namespace

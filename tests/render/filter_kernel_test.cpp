@@ -1,0 +1,172 @@
+// The filter's kernels against sums in double precision, pixel by pixel, on films whose rows are
+// not whole groups.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "host/device/device.hpp"
+#include "host/device/program.hpp"
+#include "wedge/shared/filter.h"
+#include "wedge/shared/planes.h"
+#include "wedge/shared/scene.h"
+
+namespace wedge::test {
+namespace {
+
+constexpr int kSignals = 2;  // of one light, and of the hemisphere
+constexpr int kMeanPlanes = WEDGE_LIGHT_PLANES + WEDGE_HEMISPHERE_PLANES;
+constexpr int kMaxRadius_px = 4;
+
+/// Arrays in planes, on the host.
+struct Planes {
+    int width, height;
+    std::vector<float> values;
+
+    Planes(int w, int h, int count)
+        : width(w), height(h), values(2 * WEDGE_PLANE_MARGIN + std::size_t(count) * size()) {}
+    std::size_t size() const { return std::size_t(WEDGE_PLANE_PITCH(width)) * height; }
+    float& at(int plane, int x, int y) {
+        return values[WEDGE_PLANE_MARGIN + plane * size() + y * WEDGE_PLANE_PITCH(width) + x];
+    }
+};
+
+/// Bumpy ground; some pixels show it at two heights, some show nothing, some are not filtered.
+/// Pixels are closer than their size, so that it counts how many of them a filter may reach, and
+/// the ends of rows are no farther from each other than neighbours.
+struct Film {
+    Planes places, sigmas, means;
+
+    Film(int width, int height)
+        : places(width, height, WEDGE_SURFACES * WEDGE_PLACE_PLANES),
+          sigmas(width, height, WEDGE_SURFACES * kSignals),
+          means(width, height, WEDGE_SURFACES * kMeanPlanes) {
+        std::mt19937 random(uint32_t(width * 100 + height));
+        std::uniform_real_distribution<float> uniform(0, 1);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const int surfaces = int(uniform(random) * 3.5f) % 3;
+                for (int k = 0; k < surfaces; ++k) fill(k, x, y, random);
+            }
+    }
+
+    void fill(int surface, int x, int y, std::mt19937& random) {
+        std::uniform_real_distribution<float> uniform(0, 1);
+        const int first = surface * WEDGE_PLACE_PLANES;
+        const float tilt = uniform(random) < 0.2f ? 0.3f : 0.1f * uniform(random);
+        places.at(first + WEDGE_PLACE_X, x, y) = 0.06f * float(x % 8);
+        places.at(first + WEDGE_PLACE_Y, x, y) = 0.35f * float(surface) + 0.1f * uniform(random);
+        places.at(first + WEDGE_PLACE_Z, x, y) = 0.1f * float(y);
+        places.at(first + WEDGE_PLACE_SIZE, x, y) = 0.1f;
+        places.at(first + WEDGE_PLACE_NX, x, y) = std::sin(tilt);
+        places.at(first + WEDGE_PLACE_NY, x, y) = std::cos(tilt);
+        for (int s = 0; s < kSignals; ++s)
+            sigmas.at(surface * kSignals + s, x, y) =
+                uniform(random) < 0.2f ? 0 : 0.3f * uniform(random);
+        for (int c = 0; c < kMeanPlanes; ++c)
+            means.at(surface * kMeanPlanes + c, x, y) = uniform(random);
+    }
+
+    double place(int surface, int what, int x, int y) {
+        return double(places.at(surface * WEDGE_PLACE_PLANES + what, x, y));
+    }
+};
+
+/// Weight of surface b of pixel (qx, qy) for surface a of (px, py); docs/method.md.
+double weight(Film& f, int a, int px, int py, int b, int qx, int qy, int signal, double scale,
+              bool along_y) {
+    if (!(f.place(b, WEDGE_PLACE_SIZE, qx, qy) > 0)) return 0;
+    double d[3], n[3], cosine = 0, off = 0, r2 = 0;
+    for (int c = 0; c < 3; ++c) {
+        d[c] = f.place(b, WEDGE_PLACE_X + c, qx, qy) - f.place(a, WEDGE_PLACE_X + c, px, py);
+        n[c] = f.place(a, WEDGE_PLACE_NX + c, px, py);
+        cosine += n[c] * f.place(b, WEDGE_PLACE_NX + c, qx, qy);
+        off += d[c] * n[c];
+        r2 += d[c] * d[c];
+    }
+    const double ten_degrees = 10 * 3.14159265358979 / 180;
+    if (cosine < std::cos(ten_degrees)) return 0;
+    const double over = std::abs(off) - 2 * f.place(a, WEDGE_PLACE_SIZE, px, py);
+    if (over >= 0 && over * over >= std::pow(std::tan(ten_degrees), 2) * r2) return 0;
+    if (along_y) r2 -= d[1] * d[1];
+    const double sigma = scale * std::min(double(f.sigmas.at(a * kSignals + signal, px, py)),
+                                          double(f.sigmas.at(b * kSignals + signal, qx, qy)));
+    return r2 < 9 * sigma * sigma ? std::exp(-r2 / (2 * sigma * sigma)) : 0;
+}
+
+/// Mean over a row of plane `c` of a signal; the light's normal is +y.
+double filtered(Film& f, int surface, int signal, int c, int x, int y, double scale) {
+    const int plane = (signal == 0 ? 0 : WEDGE_LIGHT_PLANES) + c;
+    const double sigma = scale * double(f.sigmas.at(surface * kSignals + signal, x, y));
+    const int reach = std::min(int(std::ceil(3 * sigma / 0.1)), kMaxRadius_px);
+    double sum = double(f.means.at(surface * kMeanPlanes + plane, x, y)), weights = 1;
+    for (int q = std::max(x - reach, 0); q <= std::min(x + reach, f.means.width - 1); ++q)
+        for (int b = 0; b < WEDGE_SURFACES && q != x; ++b) {
+            const double w = weight(f, surface, x, y, b, q, y, signal, scale, signal == 0);
+            sum += w * double(f.means.at(b * kMeanPlanes + plane, q, y));
+            weights += w;
+        }
+    return sum / weights;
+}
+
+Planes run_filter_x(device::Device& device, Film& film, float scale) {
+    const device::ProgramRequest request{"kernels/filter.cl",
+                                         {"WEDGE_SHADOW_LIGHTS=1", "WEDGE_FILTER_HEMISPHERE=1"}};
+    const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
+    cl::Kernel kernel = programs[0].kernel("filter_x");
+    const int width = film.means.width, height = film.means.height;
+    shared::FilterSettings settings{};
+    settings.max_radius_px = kMaxRadius_px;
+    shared::Light light{};
+    light.normal = {0, 1, 0, 0};
+    const auto upload = [&](const Planes& planes) {
+        return device.upload_bytes(planes.values.data(), planes.values.size() * sizeof(float),
+                                   "planes", CL_MEM_READ_WRITE);
+    };
+    Planes result(width, height, WEDGE_SURFACES * kMeanPlanes);
+    // Kernels do not keep their buffers.
+    const cl::Buffer kept[] = {device.upload_bytes(&settings, sizeof(settings), "settings"),
+                               device.upload_bytes(&light, sizeof(light), "light"),
+                               upload(film.places), upload(film.sigmas), upload(film.means)};
+    const cl::Buffer filtered = upload(result);
+    cl_uint index = 0;
+    for (const cl::Buffer& buffer : kept) kernel.setArg(index++, buffer);
+    kernel.setArg(index++, cl_int(width));
+    kernel.setArg(index++, cl_int(height));
+    kernel.setArg(index++, scale);
+    kernel.setArg(index, filtered);
+    device.launch(kernel, result.size() / WEDGE_LANES);
+    device.finish();
+    device.download(filtered, result.values.data(), result.values.size() * sizeof(float));
+    return result;
+}
+
+TEST_CASE("filters_along_rows_are_the_sums_that_they_should_be") {
+    device::Device device;
+    for (const auto& [width, height] : {std::pair(1, 1), std::pair(5, 7), std::pair(21, 6)}) {
+        Film film(width, height);
+        for (float scale : {1.0f, 0.25f}) {
+            Planes found = run_filter_x(device, film, scale);
+            CAPTURE(width);
+            double worst = 0;
+            for (int y = 0; y < height; ++y)
+                for (int x = 0; x < width; ++x)
+                    for (int k = 0; k < WEDGE_SURFACES; ++k) {
+                        if (!(film.place(k, WEDGE_PLACE_SIZE, x, y) > 0)) continue;
+                        for (int c = 0; c < kMeanPlanes; ++c) {
+                            const int signal = c < WEDGE_LIGHT_PLANES ? 0 : 1;
+                            const int in_signal = signal == 0 ? c : c - WEDGE_LIGHT_PLANES;
+                            const double truth =
+                                filtered(film, k, signal, in_signal, x, y, double(scale));
+                            const double is = double(found.at(k * kMeanPlanes + c, x, y));
+                            worst = std::max(worst, std::abs(is - truth));
+                        }
+                    }
+            CHECK(worst < 5e-4);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace wedge::test
