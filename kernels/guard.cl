@@ -90,29 +90,29 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
     if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
 }
 
-/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one is chosen, this
-   many standard errors of its estimate are taken off the square of a drift. The error that is told has none taken off. */
-#define WEDGE_BENEFIT_OF_DOUBT 1.0f
+/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one is chosen,
+   settings->doubt standard errors of its estimate are taken off the square of a drift. The error that is told has
+   none taken off. */
 #define WEDGE_NO_DOUBT 0.0f
 
 /* Magnitude of the drift from a filter to a wider one. The halves' drifts have twice the variance of their mean's,
    which is what noise falls by. White noise is averaged over `pixels`; what a filter has made smooth already
    hardly is. */
 inline float certain_drift(float product, float narrow_noise, float wide_noise, float pixels,
-                           float benefit) {
-    const float doubt =
-        benefit * 2.0f * fmax(narrow_noise - wide_noise, 0.0f) * rsqrt(pixels);
-    return sqrt(fmax(product - doubt, 0.0f));
+                           float doubt) {
+    const float luck =
+        doubt * 2.0f * fmax(narrow_noise - wide_noise, 0.0f) * rsqrt(pixels);
+    return sqrt(fmax(product - luck, 0.0f));
 }
 
 /* Mean square errors by scale. */
-inline float4 estimated_errors(ScaleErrors e, float benefit) {
+inline float4 estimated_errors(ScaleErrors e, float doubt) {
     const float4 n = e.noise;
     float4 bias;
     bias.x = 0.0f;
-    bias.y = certain_drift(e.drift.y, n.x, n.y, WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE, benefit);
-    bias.z = bias.y + certain_drift(e.drift.z, n.y, n.z, 1.0f, benefit);
-    bias.w = bias.z + certain_drift(e.drift.w, n.z, n.w, 1.0f, benefit);
+    bias.y = certain_drift(e.drift.y, n.x, n.y, WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE, doubt);
+    bias.z = bias.y + certain_drift(e.drift.z, n.y, n.z, 1.0f, doubt);
+    bias.w = bias.z + certain_drift(e.drift.w, n.z, n.w, 1.0f, doubt);
     return n + bias * bias;
 }
 
@@ -120,9 +120,9 @@ inline float4 mean_of_halves(__global const float4* light) { return 0.5f * (ligh
 
 /* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so the mean of a
    filter and none weighted by the errors is better than both. */
-inline float4 choose(ScaleErrors estimates, __global const float4* light, uint stride, float* error) {
+inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride, float* error) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
-    const float4 errors = estimated_errors(estimates, WEDGE_BENEFIT_OF_DOUBT);
+    const float4 errors = estimated_errors(estimates, doubt);
     const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT);
     const float by_scale[WEDGE_SCALES] = {errors.x, errors.y, errors.z, errors.w};
     const float told[WEDGE_SCALES] = {likely.x, likely.y, likely.z, likely.w};
@@ -137,9 +137,10 @@ inline float4 choose(ScaleErrors estimates, __global const float4* light, uint s
 }
 
 /* As `choose`, but with the filter everywhere or nowhere. `light`: of a pixel by scale, `stride` apart. */
-inline float4 choose_by_mode(int mode, ScaleErrors estimates, __global const float4* light,
-                             uint stride, float4 unfiltered, float* error) {
-    if (mode == WEDGE_FILTER_MODE_GUARDED) return choose(estimates, light, stride, error);
+inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors estimates,
+                             __global const float4* light, uint stride, float4 unfiltered, float* error) {
+    const int mode = settings->mode;
+    if (mode == WEDGE_FILTER_MODE_GUARDED) return choose(settings->doubt, estimates, light, stride, error);
     const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT);
     const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
     *error = plain ? errors.w : errors.x;
@@ -159,11 +160,10 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     GuardedPixel g;
     g.error = (float4)(0.0f);
     float error;
-    const int mode = settings->mode;
-    g.direct = choose_by_mode(mode, errors[id].direct, light[id].direct, WEDGE_STRIDE(count),
+    g.direct = choose_by_mode(settings, errors[id].direct, light[id].direct, WEDGE_STRIDE(count),
                               (u->direct[0] + u->direct[1]) / n, &error);
     g.error.x = error;
-    g.indirect = choose_by_mode(mode, errors[id].indirect, light[id].indirect, WEDGE_STRIDE(count),
+    g.indirect = choose_by_mode(settings, errors[id].indirect, light[id].indirect, WEDGE_STRIDE(count),
                                 (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
     guarded[id] = g;

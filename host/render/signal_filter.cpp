@@ -27,6 +27,12 @@ constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 12;       // of filter_y
 constexpr cl_uint kBrightnessArg = 13;  // of filter_bandwidth
 
+/// Of the guard. The narrower filters are than theory asks for (mu = 1), the less is their bias,
+/// and what seems to be one is luck.
+float benefit_of_doubt(float mu) {
+    return std::clamp(1 + std::log2(mu), 1.0f, 2.0f);
+}
+
 int mode_of(FilterMode mode) {
     switch (mode) {
         case FilterMode::guarded:
@@ -77,6 +83,7 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
     s.least_samples = options.adaptive ? s.probe_samples : s.max_samples;
     s.mode = mode_of(options.filter);
+    s.doubt = benefit_of_doubt(s.mu);
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
     s.camera_rays_at_edges = bounces > 0 ? kCameraRaysWithBounces : kCameraRaysAlone;

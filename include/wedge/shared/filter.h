@@ -114,8 +114,9 @@ typedef struct FilterSettings {
     int camera_rays_at_edges; /* whose contrast is the mean brightness; mu = 1 */
     int least_samples;        /* that every pixel gets, whatever its frequencies */
     int mode;                 /* WEDGE_FILTER_MODE_* */
+    float doubt; /* standard errors of its estimate that are taken off the square of a drift */
 } FilterSettings;
-WEDGE_ASSERT_SIZE(FilterSettings, 48);
+WEDGE_ASSERT_SIZE(FilterSettings, 52);
 
 /* What is done with what was sampled: guarded filters, filters everywhere, none. */
 #define WEDGE_FILTER_MODE_GUARDED 0
