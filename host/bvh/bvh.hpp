@@ -24,6 +24,11 @@ struct Bvh {
     double build_s = 0;
 };
 
+/// False for a slot without a child.
+inline bool is_used(const shared::BvhNode& node, int slot) {
+    return node.bounds[0][slot] <= node.bounds[1][slot];
+}
+
 /// Binned surface-area heuristic (Wald 2007), cut into nodes of 8 children. `triangles` index
 /// `positions`; TriangleBlock::primitive is the index into `triangles`. The same input gives the
 /// same bits whatever the number of threads. Throws Error(bad_input) if an index is out of range.

@@ -16,10 +16,6 @@ constexpr int kUnused = -1;
 /// Which child of the wide node comes into each slot; kUnused: none.
 using Order = std::array<int8_t, kSlots>;
 
-bool is_used(const shared::BvhNode& node, int child) {
-    return node.bounds[0][child] <= node.bounds[1][child];
-}
-
 Vec3 lower_of(const shared::BvhNode& node, int child) {
     return {node.bounds[0][child], node.bounds[2][child], node.bounds[4][child]};
 }

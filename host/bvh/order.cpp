@@ -17,10 +17,6 @@ struct Child {
     float area;
 };
 
-bool is_used(const shared::BvhNode& node, int slot) {
-    return node.bounds[0][slot] <= node.bounds[1][slot];
-}
-
 Box child_box(const shared::BvhNode& node, int slot) {
     return {Float4{node.bounds[0][slot], node.bounds[2][slot], node.bounds[4][slot], 0},
             Float4{node.bounds[1][slot], node.bounds[3][slot], node.bounds[5][slot], 0}};

@@ -29,10 +29,6 @@ bool same_bits(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-bool is_used(const shared::BvhNode& node, int slot) {
-    return node.bounds[0][slot] <= node.bounds[1][slot];
-}
-
 /// Follows both trees from the root; `taken`: rows that are part of something.
 struct Walk {
     const bvh::Bvh& tree;
@@ -54,7 +50,7 @@ struct Walk {
         take(first, kNodeRows);
         uint32_t next = first + kNodeRows;
         for (int slot = 0; slot < 8; ++slot) {
-            if (!is_used(expected, slot)) continue;
+            if (!bvh::is_used(expected, slot)) continue;
             REQUIRE((node.child[slot] < 0) == (expected.child[slot] < 0));
             if (node.child[slot] >= 0) {
                 visit(uint32_t(expected.child[slot]), uint32_t(node.child[slot]));
