@@ -34,7 +34,8 @@ inline ScaleErrors errors_of(__global const float4* light, uint stride) {
     __global const float4 *a = light, *b = a + stride, *c = b + stride, *d = c + stride;
     ScaleErrors e;
     e.noise = (float4)(noise_of(a), noise_of(b), noise_of(c), noise_of(d));
-    e.drift = (float4)(0.0f, drift_of(b, a), drift_of(c, b), drift_of(d, c));
+    const float first = drift_of(b, a);
+    e.drift = (float4)(first * first, first, drift_of(c, b), drift_of(d, c));
     return e;
 }
 
@@ -90,29 +91,34 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
     if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
 }
 
-/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one is chosen,
-   settings->doubt standard errors of its estimate are taken off the square of a drift. The error that is told has
-   none taken off. */
+/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one is chosen, some
+   standard errors of its estimate are taken off the square of a drift. The error that is told has none taken off. */
+#define WEDGE_FIRST_DOUBT 2.0f
 #define WEDGE_NO_DOUBT 0.0f
 
-/* Magnitude of the drift from a filter to a wider one. The halves' drifts have twice the variance of their mean's,
-   which is what noise falls by. White noise is averaged over `pixels`; what a filter has made smooth already
-   hardly is. */
-inline float certain_drift(float product, float narrow_noise, float wide_noise, float pixels,
-                           float doubt) {
-    const float luck =
-        doubt * 2.0f * fmax(narrow_noise - wide_noise, 0.0f) * rsqrt(pixels);
+/* Magnitude of the drift from the pixel's own samples to the narrowest filter. Pixels are independent there, so that
+   the spread of their products tells the standard error of the mean: one pixel with bright samples in both halves
+   proves nothing. */
+inline float first_drift(float4 drift, float doubt) {
+    const float luck = doubt * sqrt(drift.x) / WEDGE_GUARD_SIDE;
+    return sqrt(fmax(drift.y - luck, 0.0f));
+}
+
+/* Magnitude of the drift from a filter to the next wider one. What is smooth already is hardly averaged over neighbours.
+   The halves' drifts have twice the variance of their mean's, which is what noise falls by. */
+inline float next_drift(float product, float narrow_noise, float wide_noise, float doubt) {
+    const float luck = doubt * 2.0f * fmax(narrow_noise - wide_noise, 0.0f);
     return sqrt(fmax(product - luck, 0.0f));
 }
 
 /* Mean square errors by scale. */
-inline float4 estimated_errors(ScaleErrors e, float doubt) {
+inline float4 estimated_errors(ScaleErrors e, float first_doubt, float next_doubt) {
     const float4 n = e.noise;
     float4 bias;
     bias.x = 0.0f;
-    bias.y = certain_drift(e.drift.y, n.x, n.y, WEDGE_GUARD_SIDE * WEDGE_GUARD_SIDE, doubt);
-    bias.z = bias.y + certain_drift(e.drift.z, n.y, n.z, 1.0f, doubt);
-    bias.w = bias.z + certain_drift(e.drift.w, n.z, n.w, 1.0f, doubt);
+    bias.y = first_drift(e.drift, first_doubt);
+    bias.z = bias.y + next_drift(e.drift.z, n.y, n.z, next_doubt);
+    bias.w = bias.z + next_drift(e.drift.w, n.z, n.w, next_doubt);
     return n + bias * bias;
 }
 
@@ -122,8 +128,8 @@ inline float4 mean_of_halves(__global const float4* light) { return 0.5f * (ligh
    filter and none weighted by the errors is better than both. */
 inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride, float* error) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
-    const float4 errors = estimated_errors(estimates, doubt);
-    const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT);
+    const float4 errors = estimated_errors(estimates, WEDGE_FIRST_DOUBT, doubt);
+    const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
     const float by_scale[WEDGE_SCALES] = {errors.x, errors.y, errors.z, errors.w};
     const float told[WEDGE_SCALES] = {likely.x, likely.y, likely.z, likely.w};
     int best = WEDGE_SCALES - 1;
@@ -141,7 +147,7 @@ inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors es
                              __global const float4* light, uint stride, float4 unfiltered, float* error) {
     const int mode = settings->mode;
     if (mode == WEDGE_FILTER_MODE_GUARDED) return choose(settings->doubt, estimates, light, stride, error);
-    const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT);
+    const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
     const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
     *error = plain ? errors.w : errors.x;
     return plain ? (float4)(mean_of_halves(light + (WEDGE_SCALES - 1) * stride).xyz, 1.0f)

@@ -59,7 +59,8 @@ WEDGE_ASSERT_SIZE(HalfLight, 64);
 /* What the halves tell of the errors of filters, by scale. */
 typedef struct ScaleErrors {
     float4 noise; /* mean square, of the mean of both halves */
-    float4 drift; /* square of what the filter adds to the bias of the next narrower one */
+    float4 drift; /* y, z, w: square of what the filter adds to the bias of the next narrower one;
+                     x: y's own square, of a pixel before it is smoothed */
 } ScaleErrors;
 WEDGE_ASSERT_SIZE(ScaleErrors, 32);
 
@@ -114,7 +115,7 @@ typedef struct FilterSettings {
     int camera_rays_at_edges; /* whose contrast is the mean brightness; mu = 1 */
     int least_samples;        /* that every pixel gets, whatever its frequencies */
     int mode;                 /* WEDGE_FILTER_MODE_* */
-    float doubt; /* standard errors of its estimate that are taken off the square of a drift */
+    float doubt; /* standard errors that are taken off the square of a drift between filters */
 } FilterSettings;
 WEDGE_ASSERT_SIZE(FilterSettings, 52);
 

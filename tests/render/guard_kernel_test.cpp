@@ -1,0 +1,111 @@
+// The guard's kernels on light made up for them: what they take for a filter's bias.
+#include <doctest/doctest.h>
+
+#include <random>
+#include <vector>
+
+#include "host/device/device.hpp"
+#include "host/device/program.hpp"
+#include "wedge/shared/filter.h"
+
+namespace wedge::test {
+namespace {
+
+constexpr int kSide = 33, kMiddle = kSide / 2, kPixels = kSide * kSide;
+constexpr float kNoise = 0.1f;  // standard deviation of one half of a pixel's samples
+
+/// Light of one, direct, with noise that filters take away. Indirect light is none.
+struct Light {
+    std::vector<shared::HalfLight> unfiltered = std::vector<shared::HalfLight>(kPixels);
+    std::vector<shared::HalfLight> scales = std::vector<shared::HalfLight>(WEDGE_SCALES * kPixels);
+
+    Light() {
+        std::mt19937 random(1);
+        std::normal_distribution<float> noise(0, kNoise);
+        for (int i = 0; i < kPixels; ++i)
+            for (int half = 0; half < 2; ++half) {
+                const float samples = 8;
+                unfiltered[std::size_t(i)].direct[half].w = samples;
+                set(i, half, 0, 1 + noise(random));
+                for (int scale = 1; scale < WEDGE_SCALES; ++scale)
+                    set(i, half, scale, 1 + 0.1f * noise(random) / float(scale));
+            }
+    }
+
+    void set(int pixel, int half, int scale, float value) {
+        scales[std::size_t(scale * kPixels + pixel)].direct[half] = {value, value, value, 0};
+    }
+};
+
+std::vector<shared::GuardedPixel> run_guard(const Light& light) {
+    device::Device device;
+    const device::ProgramRequest request{"kernels/guard.cl", {}};
+    const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
+    shared::FilterSettings settings{};
+    settings.mode = WEDGE_FILTER_MODE_GUARDED;
+    settings.doubt = 1;
+    const auto upload = [&](const auto& items, const char* what) {
+        return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), what,
+                                   CL_MEM_READ_WRITE);
+    };
+    std::vector<shared::FilterErrors> no_errors(kPixels);
+    std::vector<shared::GuardedPixel> guarded(kPixels);
+    const cl::Buffer settings_buffer = device.upload_bytes(&settings, sizeof(settings), "settings");
+    const cl::Buffer unfiltered = upload(light.unfiltered, "unfiltered");
+    const cl::Buffer scales = upload(light.scales, "light");
+    const cl::Buffer errors = upload(no_errors, "errors"), smoothed = upload(no_errors, "errors");
+    const cl::Buffer result = upload(guarded, "guarded");
+    const auto launch = [&](const char* name, const auto&... args) {
+        cl::Kernel kernel = programs[0].kernel(name);
+        cl_uint index = 0;
+        (kernel.setArg(index++, args), ...);
+        device.launch(kernel, kPixels);
+    };
+    launch("guard_errors", unfiltered, scales, errors, cl_uint(kPixels));
+    launch("guard_smooth_x", errors, smoothed, cl_int(kSide), cl_int(kSide));
+    launch("guard_smooth_y", smoothed, errors, cl_int(kSide), cl_int(kSide));
+    launch("guard_choose", settings_buffer, unfiltered, scales, errors, result, cl_uint(kPixels));
+    device.download(result, guarded.data(), guarded.size() * sizeof(guarded[0]));
+    return guarded;
+}
+
+/// Share of the full width that is taken, in the mean over the pixels about the middle.
+double width_about_the_middle(const std::vector<shared::GuardedPixel>& guarded) {
+    double sum = 0;
+    for (int y = kMiddle - 3; y <= kMiddle + 3; ++y)
+        for (int x = kMiddle - 3; x <= kMiddle + 3; ++x)
+            sum += double(guarded[std::size_t(y * kSide + x)].direct.w);
+    return sum / 49;
+}
+
+TEST_CASE("noise_alone_is_filtered") {
+    CHECK(width_about_the_middle(run_guard(Light())) > 0.95);
+}
+
+TEST_CASE("a_bright_pixel_leaves_its_neighbours_filtered") {
+    // Both halves have met what is rare and bright, one of them much brighter: the product of their
+    // drifts is large, but it is that of one pixel.
+    for (float second : {3.0f, 20.0f, 100.0f}) {
+        Light light;
+        light.set(kSide * kMiddle + kMiddle, 0, 0, 100);
+        light.set(kSide * kMiddle + kMiddle, 1, 0, second);
+        CAPTURE(second);
+        CHECK(width_about_the_middle(run_guard(light)) > 0.95);
+    }
+}
+
+TEST_CASE("a_thin_line_that_filters_wipe_out_is_kept") {
+    Light light;
+    std::mt19937 random(2);
+    std::normal_distribution<float> noise(0, kNoise);
+    for (int y = 0; y < kSide; ++y)
+        for (int half = 0; half < 2; ++half)
+            light.set(y * kSide + kMiddle, half, 0, 3 + noise(random));
+    const auto guarded = run_guard(light);
+    const float middle = guarded[std::size_t(kSide * kMiddle + kMiddle)].direct.x;
+    CHECK(middle > 2.7f);
+    CHECK(middle < 3.1f);
+}
+
+}  // namespace
+}  // namespace wedge::test
