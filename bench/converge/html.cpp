@@ -5,7 +5,7 @@
 namespace wedge::converge {
 namespace {
 
-constexpr std::size_t kColours = 10;  // in the style sheet
+constexpr std::size_t kColours = 20;  // in the style sheet
 constexpr double kMark_px = 3.6;      // half a mark's size
 
 }  // namespace
@@ -143,6 +143,8 @@ const char* const kStyle = R"css(
   --good: #1b7a3d; --bad: #b3261e; --note: #fff4d6;
   --c0: #4a4f57; --c1: #8a8f98; --c2: #b58900; --c3: #0b63ce; --c4: #c2410c; --c5: #0f8a6d;
   --c6: #8b3fc0; --c7: #c21d6b; --c8: #5b7c12; --c9: #0891b2;
+  --c10: #a0522d; --c11: #2e9e3f; --c12: #7c5cff; --c13: #00a69c; --c14: #a39274; --c15: #1f3fa8;
+  --c16: #d97706; --c17: #e05d8a; --c18: #3f7f5f; --c19: #9c27b0;
 }
 @media (prefers-color-scheme: dark) {
   :root {
@@ -150,6 +152,8 @@ const char* const kStyle = R"css(
     --good: #6fd08c; --bad: #ff8a80; --note: #3a3015;
     --c0: #d5d7db; --c1: #90959d; --c2: #e2b93b; --c3: #6aa8ff; --c4: #ff9052; --c5: #45cfae;
     --c6: #c792f0; --c7: #ff79b0; --c8: #a8cf4d; --c9: #56d0ea;
+    --c10: #d08a62; --c11: #6fdc7d; --c12: #a994ff; --c13: #3fe0cf; --c14: #cfc2ad; --c15: #8fa6ff;
+    --c16: #ffb340; --c17: #ff9fc0; --c18: #8fc7a8; --c19: #e08cf0;
   }
 }
 * { box-sizing: border-box; }
@@ -221,6 +225,11 @@ dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 .s4 { stroke: var(--c4); fill: var(--c4); --chip: var(--c4); } .s5 { stroke: var(--c5); fill: var(--c5); --chip: var(--c5); }
 .s6 { stroke: var(--c6); fill: var(--c6); --chip: var(--c6); } .s7 { stroke: var(--c7); fill: var(--c7); --chip: var(--c7); }
 .s8 { stroke: var(--c8); fill: var(--c8); --chip: var(--c8); } .s9 { stroke: var(--c9); fill: var(--c9); --chip: var(--c9); }
+.s10 { stroke: var(--c10); fill: var(--c10); --chip: var(--c10); } .s11 { stroke: var(--c11); fill: var(--c11); --chip: var(--c11); }
+.s12 { stroke: var(--c12); fill: var(--c12); --chip: var(--c12); } .s13 { stroke: var(--c13); fill: var(--c13); --chip: var(--c13); }
+.s14 { stroke: var(--c14); fill: var(--c14); --chip: var(--c14); } .s15 { stroke: var(--c15); fill: var(--c15); --chip: var(--c15); }
+.s16 { stroke: var(--c16); fill: var(--c16); --chip: var(--c16); } .s17 { stroke: var(--c17); fill: var(--c17); --chip: var(--c17); }
+.s18 { stroke: var(--c18); fill: var(--c18); --chip: var(--c18); } .s19 { stroke: var(--c19); fill: var(--c19); --chip: var(--c19); }
 .line { fill: none; } .ribbon { stroke: none; } .mark { stroke: var(--card); } .bar .b { background: var(--chip); }
 )css";
 
