@@ -98,9 +98,9 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
 
 /* Magnitude of the drift from the pixel's own samples to the narrowest filter. Pixels are independent there, so that
    the spread of their products tells the standard error of the mean: one pixel with bright samples in both halves
-   proves nothing. */
+   proves nothing. The square of their product is infinite where radiance is beyond some 1e9. */
 inline float first_drift(float4 drift, float doubt) {
-    const float luck = doubt * sqrt(drift.x) / WEDGE_GUARD_SIDE;
+    const float luck = doubt > 0.0f ? doubt * sqrt(drift.x) / WEDGE_GUARD_SIDE : 0.0f;
     return sqrt(fmax(drift.y - luck, 0.0f));
 }
 

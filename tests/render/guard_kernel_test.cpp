@@ -1,7 +1,9 @@
 // The guard's kernels on light made up for them: what they take for a filter's bias.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "host/device/device.hpp"
@@ -85,12 +87,16 @@ TEST_CASE("noise_alone_is_filtered") {
 TEST_CASE("a_bright_pixel_leaves_its_neighbours_filtered") {
     // Both halves have met what is rare and bright, one of them much brighter: the product of their
     // drifts is large, but it is that of one pixel.
-    for (float second : {3.0f, 20.0f, 100.0f}) {
+    for (const auto& [first, second] :
+         {std::pair(100.f, 3.f), {100.f, 20.f}, {100.f, 100.f}, {1e15f, 1e15f}}) {
         Light light;
-        light.set(kSide * kMiddle + kMiddle, 0, 0, 100);
+        light.set(kSide * kMiddle + kMiddle, 0, 0, first);
         light.set(kSide * kMiddle + kMiddle, 1, 0, second);
+        const auto guarded = run_guard(light);
+        CAPTURE(first);
         CAPTURE(second);
-        CHECK(width_about_the_middle(run_guard(light)) > 0.95);
+        CHECK(width_about_the_middle(guarded) > 0.95);
+        for (const shared::GuardedPixel& pixel : guarded) CHECK(std::isfinite(pixel.error.x));
     }
 }
 
