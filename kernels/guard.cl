@@ -1,13 +1,14 @@
 /* The guard: how much to filter is decided pixel by pixel, by estimated error.
 
-   The two halves of a pixel's samples are independent, and so are what they are filtered to. The square of their
-   difference tells noise. Bias is told by how the mean drifts from one width of the filter to the next wider one: the
-   drifts of both halves have the same mean, and their product has the square of it as its own, free of noise (the
-   dual buffers of Rousselle, Knaus, Zwicker 2012, but between neighbouring widths, as in Lepski's choice of a
-   bandwidth, 1991). The narrowest "filter" is the pixel's own samples, which have no bias, so that the drifts add up
-   to the bias; and each is known as well as what the narrower of two filters gives is free of noise. A rare
-   bright sample in one half cancels. What no filter can change, coverage of pixels by surfaces, is alike in all and does
-   not count.
+   The two halves of a pixel's samples are independent, and so are what they are filtered to. The
+   square of their difference tells noise. Bias is told by how the mean drifts from one width of the
+   filter to the next wider one: the drifts of both halves have the same mean, and their product has
+   the square of it as its own, free of noise (the dual buffers of Rousselle, Knaus, Zwicker 2012,
+   but between neighbouring widths, as in Lepski's choice of a bandwidth, 1991). The narrowest
+   "filter" is the pixel's own samples, which have no bias, so that the drifts add up to the bias;
+   and each is known as well as what the narrower of two filters gives is free of noise. A rare
+   bright sample in one half cancels. What no filter can change, coverage of pixels by surfaces, is
+   alike in all and does not count.
 
      guard_errors      noise and drifts of each pixel
      guard_smooth_x, guard_smooth_y   their means over neighbours
@@ -15,7 +16,9 @@
 #include "lib/geometry.clh"
 #include "wedge/shared/filter.h"
 
-inline float dot_rgb(float4 a, float4 b) { return dot(a.xyz, b.xyz) * (1.0f / 3.0f); }
+inline float dot_rgb(float4 a, float4 b) {
+    return dot(a.xyz, b.xyz) * (1.0f / 3.0f);
+}
 
 /* Of the mean of two halves. */
 inline float noise_of(__global const float4* halves) {
@@ -39,8 +42,8 @@ inline ScaleErrors errors_of(__global const float4* light, uint stride) {
     return e;
 }
 
-/* A render that was stopped early has pixels without a second half. They know nothing: what their neighbours know
-   decides, and if none knows anything, the filter is trusted. */
+/* A render that was stopped early has pixels without a second half. They know nothing: what their
+   neighbours know decides, and if none knows anything, the filter is trusted. */
 __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
                            __global const HalfLight* restrict light,
                            __global FilterErrors* restrict errors, uint count) {
@@ -55,7 +58,7 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
     errors[id] = e;
 }
 
-/* Mean of `errors` over a stretch of 2 WEDGE_GUARD_RADIUS + 1 pixels, as far as they are on the film. */
+/* Mean of `errors` over a stretch of WEDGE_GUARD_SIDE pixels, as far as they are on the film. */
 #define WEDGE_GUARD_RADIUS 5
 #define WEDGE_GUARD_SIDE (2.0f * WEDGE_GUARD_RADIUS + 1.0f)
 
@@ -91,21 +94,24 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
     if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
 }
 
-/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one is chosen, some
-   standard errors of its estimate are taken off the square of a drift. The error that is told has none taken off. */
+/* Where it is a matter of luck which seems better, the wider filter is the better guess: before one
+   is chosen, some standard errors of its estimate are taken off the square of a drift. The error
+   that is told has none taken off. */
 #define WEDGE_FIRST_DOUBT 2.0f
 #define WEDGE_NO_DOUBT 0.0f
 
-/* Magnitude of the drift from the pixel's own samples to the narrowest filter. Pixels are independent there, so that
-   the spread of their products tells the standard error of the mean: one pixel with bright samples in both halves
-   proves nothing. The square of their product is infinite where radiance is beyond some 1e9. */
+/* Magnitude of the drift from the pixel's own samples to the narrowest filter. Pixels are
+   independent there, so that the spread of their products tells the standard error of the mean: one
+   pixel with bright samples in both halves proves nothing. The square of their product is infinite
+   where radiance is beyond some 1e9. */
 inline float first_drift(float4 drift, float doubt) {
     const float luck = doubt > 0.0f ? doubt * sqrt(drift.x) / WEDGE_GUARD_SIDE : 0.0f;
     return sqrt(fmax(drift.y - luck, 0.0f));
 }
 
-/* Magnitude of the drift from a filter to the next wider one. What is smooth already is hardly averaged over neighbours.
-   The halves' drifts have twice the variance of their mean's, which is what noise falls by. */
+/* Magnitude of the drift from a filter to the next wider one. What is smooth already is hardly
+   averaged over neighbours. The halves' drifts have twice the variance of their mean's, which is
+   what noise falls by. */
 inline float next_drift(float product, float narrow_noise, float wide_noise, float doubt) {
     const float luck = doubt * 2.0f * fmax(narrow_noise - wide_noise, 0.0f);
     return sqrt(fmax(product - luck, 0.0f));
@@ -122,11 +128,14 @@ inline float4 estimated_errors(ScaleErrors e, float first_doubt, float next_doub
     return n + bias * bias;
 }
 
-inline float4 mean_of_halves(__global const float4* light) { return 0.5f * (light[0] + light[1]); }
+inline float4 mean_of_halves(__global const float4* light) {
+    return 0.5f * (light[0] + light[1]);
+}
 
-/* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so the mean of a
-   filter and none weighted by the errors is better than both. */
-inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride, float* error) {
+/* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so
+   the mean of a filter and none weighted by the errors is better than both. */
+inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride,
+                     float* error) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
     const float4 errors = estimated_errors(estimates, WEDGE_FIRST_DOUBT, doubt);
     const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
@@ -142,11 +151,13 @@ inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* 
     return (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share);
 }
 
-/* As `choose`, but with the filter everywhere or nowhere. `light`: of a pixel by scale, `stride` apart. */
+/* `choose`, or the filter everywhere or nowhere. `light`: of a pixel by scale, `stride` apart. */
 inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors estimates,
-                             __global const float4* light, uint stride, float4 unfiltered, float* error) {
+                             __global const float4* light, uint stride, float4 unfiltered,
+                             float* error) {
     const int mode = settings->mode;
-    if (mode == WEDGE_FILTER_MODE_GUARDED) return choose(settings->doubt, estimates, light, stride, error);
+    if (mode == WEDGE_FILTER_MODE_GUARDED)
+        return choose(settings->doubt, estimates, light, stride, error);
     const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
     const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
     *error = plain ? errors.w : errors.x;
@@ -169,8 +180,8 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     g.direct = choose_by_mode(settings, errors[id].direct, light[id].direct, WEDGE_STRIDE(count),
                               (u->direct[0] + u->direct[1]) / n, &error);
     g.error.x = error;
-    g.indirect = choose_by_mode(settings, errors[id].indirect, light[id].indirect, WEDGE_STRIDE(count),
-                                (u->indirect[0] + u->indirect[1]) / n, &error);
+    g.indirect = choose_by_mode(settings, errors[id].indirect, light[id].indirect,
+                                WEDGE_STRIDE(count), (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
     guarded[id] = g;
 }

@@ -77,9 +77,10 @@ typedef struct GuardedPixel {
 } GuardedPixel;
 WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 
-/* Mean place of a surface in a pixel, in planes (planes.h), WEDGE_PLACE_PLANES a surface: position in the world, length
-   of a pixel there seen face-on (0: nothing is there), unit normal, and the same length with foreshortening, sqrt(A_p). A
-   pixel's surfaces are the first of the list: there is none after one that is not there. */
+/* Mean place of a surface in a pixel, in planes (planes.h), WEDGE_PLACE_PLANES a surface: position
+   in the world, length of a pixel there seen face-on (0: nothing is there), unit normal, and the
+   same length with foreshortening, sqrt(A_p). A pixel's surfaces are the first of the list: there
+   is none after one that is not there. */
 #define WEDGE_PLACE_X 0
 #define WEDGE_PLACE_Y 1
 #define WEDGE_PLACE_Z 2
@@ -90,15 +91,16 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 #define WEDGE_PLACE_SLANTED_SIZE 7
 #define WEDGE_PLACE_PLANES 8
 
-/* What the probe found for a signal of a surface, in planes, WEDGE_FOUND_PLANES an entry. */
-#define WEDGE_FOUND_LEAST 0  /* of a light, the least slope; of the hemisphere, 1 / z_min; < 0: nothing was found */
-#define WEDGE_FOUND_MOST 1 /* of a light, the largest slope; of the hemisphere, z_max */
+/* What the probe found for a signal of a surface, in planes, WEDGE_FOUND_PLANES an entry; the least
+   is below 0 where it found nothing. */
+#define WEDGE_FOUND_LEAST 0    /* of a light, the least slope; of the hemisphere, 1 / z_min */
+#define WEDGE_FOUND_MOST 1     /* of a light, the largest slope; of the hemisphere, z_max */
 #define WEDGE_FOUND_VARIANCE 2 /* from one sample to the next; < 0: not known */
 #define WEDGE_FOUND_PLANES 3
 
-/* Means of signals over a pixel's samples, in planes, those of one surface after those of another: by filtered light
-   irradiance with and without shadow, of the first half, then of the second; then of signals from the hemisphere
-   rgb and the share of the pixel, of both halves. */
+/* Means of signals over a pixel's samples, in planes, those of one surface after those of another:
+   by filtered light irradiance with and without shadow, of the first half, then of the second; then
+   of signals from the hemisphere rgb and the share of the pixel, of both halves. */
 #define WEDGE_LIGHT_PLANES 4
 #define WEDGE_HEMISPHERE_PLANES 8
 
