@@ -16,12 +16,12 @@ namespace {
 constexpr int kSide = 33, kMiddle = kSide / 2, kPixels = kSide * kSide;
 constexpr float kNoise = 0.1f;  // standard deviation of one half of a pixel's samples
 
-/// Light of one, direct, with noise that filters take away. Indirect light is none.
+/// Light of one, direct and indirect, with noise that filters take away, and `bias` with it.
 struct Light {
     std::vector<shared::HalfLight> unfiltered = std::vector<shared::HalfLight>(kPixels);
     std::vector<shared::HalfLight> scales = std::vector<shared::HalfLight>(WEDGE_SCALES * kPixels);
 
-    Light() {
+    explicit Light(float bias = 0) {
         std::mt19937 random(1);
         std::normal_distribution<float> noise(0, kNoise);
         for (int i = 0; i < kPixels; ++i)
@@ -30,12 +30,13 @@ struct Light {
                 unfiltered[std::size_t(i)].direct[half].w = samples;
                 set(i, half, 0, 1 + noise(random));
                 for (int scale = 1; scale < WEDGE_SCALES; ++scale)
-                    set(i, half, scale, 1 + 0.1f * noise(random) / float(scale));
+                    set(i, half, scale, 1 - bias + 0.1f * noise(random) / float(scale));
             }
     }
 
     void set(int pixel, int half, int scale, float value) {
-        scales[std::size_t(scale * kPixels + pixel)].direct[half] = {value, value, value, 0};
+        shared::HalfLight& light = scales[std::size_t(scale * kPixels + pixel)];
+        light.direct[half] = light.indirect[half] = {value, value, value, 0};
     }
 };
 
@@ -71,17 +72,29 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light) {
     return guarded;
 }
 
-/// Share of the full width that is taken, in the mean over the 4x4 pixels from (x, x) on.
-double mean_width(const std::vector<shared::GuardedPixel>& guarded, int x) {
-    double sum = 0;
-    for (int i = 0; i < 16; ++i)
-        sum += double(guarded[std::size_t((x + i / 4) * kSide + x + i % 4)].direct.w);
-    return sum / 16;
+/// Of the 4x4 pixels from (x, x) on: share of the full width that is taken, error that is told.
+struct Corner {
+    double direct = 0, indirect = 0, error = 0;
+};
+
+Corner mean_from(const std::vector<shared::GuardedPixel>& guarded, int x) {
+    Corner mean;
+    for (int i = 0; i < 16; ++i) {
+        const auto& pixel = guarded[std::size_t((x + i / 4) * kSide + x + i % 4)];
+        mean.direct += double(pixel.direct.w) / 16;
+        mean.indirect += double(pixel.indirect.w) / 16;
+        mean.error += double(pixel.error.x) / 16;
+    }
+    return mean;
 }
 
 TEST_CASE("noise_alone_is_filtered") {
     const auto guarded = run_guard(Light());
-    for (int x : {0, kMiddle}) CHECK(mean_width(guarded, x) > 0.95);
+    const Corner corner = mean_from(guarded, 0), middle = mean_from(guarded, kMiddle);
+    for (double width : {corner.direct, corner.indirect, middle.direct, middle.indirect})
+        CHECK(width > 0.95);
+    CHECK(corner.error / middle.error > 0.6);  // there are fewer pixels to average over
+    CHECK(corner.error / middle.error < 1.6);
 }
 
 TEST_CASE("a_bright_pixel_leaves_its_neighbours_filtered") {
@@ -97,7 +110,8 @@ TEST_CASE("a_bright_pixel_leaves_its_neighbours_filtered") {
             CAPTURE(x);
             CAPTURE(first);
             CAPTURE(second);
-            CHECK(mean_width(guarded, x) > 0.95);
+            CHECK(mean_from(guarded, x).direct > 0.95);
+            CHECK(mean_from(guarded, x).indirect > 0.95);
             for (const auto& pixel : guarded) CHECK(std::isfinite(pixel.error.x));
         }
 }
@@ -110,9 +124,24 @@ TEST_CASE("a_thin_line_that_filters_wipe_out_is_kept") {
         for (int half = 0; half < 2; ++half)
             light.set(y * kSide + kMiddle, half, 0, 3 + noise(random));
     const auto guarded = run_guard(light);
-    const float middle = guarded[std::size_t(kSide * kMiddle + kMiddle)].direct.x;
-    CHECK(middle > 2.7f);
-    CHECK(middle < 3.1f);
+    const shared::GuardedPixel& middle = guarded[std::size_t(kSide * kMiddle + kMiddle)];
+    for (float value : {middle.direct.x, middle.indirect.x}) {
+        CHECK(value > 2.7f);
+        CHECK(value < 3.1f);
+    }
+}
+
+TEST_CASE("bias_within_doubt_is_told") {
+    // Its square is not two standard errors of what 121 pixels tell of it: filters are taken.
+    const double bias = 0.04;
+    double width = 0, error = 0;
+    for (const auto& pixel : run_guard(Light(float(bias)))) {
+        width += double(pixel.direct.w) / kPixels;
+        error += double(pixel.error.x) / kPixels;
+    }
+    CHECK(width > 0.6);
+    CHECK(error > 0.6 * bias * bias);
+    CHECK(error < 1.5 * bias * bias);
 }
 
 }  // namespace
