@@ -49,7 +49,7 @@ void take_spreads(Rung& rung) {
 }
 
 Curve make_curve(const Method& method, const SceneRuns& scene, const std::vector<Image>& images,
-                 const std::vector<Errors>& errors) {
+                 const std::vector<Errors>& errors, double reference_rmse) {
     Curve curve;
     curve.method = &method;
     for (std::size_t i = 0; i < scene.runs.size(); ++i) {
@@ -66,6 +66,8 @@ Curve make_curve(const Method& method, const SceneRuns& scene, const std::vector
     std::vector<double> times, rays, rmse;
     for (Rung& rung : curve.rungs) {
         take_spreads(rung);
+        rung.is_plotted = rung.metrics[0].median >= kReferenceMargin * reference_rmse;
+        if (!rung.is_plotted) continue;
         for (std::size_t i = 0; i < rung.runs.size(); ++i) {
             times.push_back(rung.runs[i]->time_s);
             rays.push_back(double(rung.runs[i]->rays));
@@ -79,20 +81,25 @@ Curve make_curve(const Method& method, const SceneRuns& scene, const std::vector
 
 void check_reference(SceneAnalysis& analysis) {
     const Reference& reference = analysis.scene->reference;
-    analysis.reference_rmse = std::sqrt(mean_squared_error_of(reference));
     analysis.smallest_rmse = INFINITY;
+    std::string left_out;
     for (const Curve& curve : analysis.curves)
-        for (const Rung& rung : curve.rungs)
+        for (const Rung& rung : curve.rungs) {
             analysis.smallest_rmse = std::min(analysis.smallest_rmse, rung.metrics[0].median);
+            if (!rung.is_plotted)
+                left_out +=
+                    fmt::format("{}{} {}={:g}", left_out.empty() ? "" : ", ", curve.method->name,
+                                name_of(rung.budget.unit), rung.budget.value);
+        }
+    if (left_out.empty()) return;
     const double ratio = analysis.smallest_rmse / analysis.reference_rmse;
-    if (!(ratio < kReferenceMargin)) return;
     const double factor = std::pow(kReferenceMargin / std::max(ratio, 0.1), 2);
     analysis.warnings.push_back(fmt::format(
-        "{}: the reference's own error is {:.2g}, the smallest plotted {:.2g}, {:.1f} times as "
-        "much and not {:g}. The reference's part is subtracted, but {:.0f} samples a pixel would "
-        "be safer, which take about {:.0f} s: --reference-time, --reference-limit.",
-        analysis.scene->name, analysis.reference_rmse, analysis.smallest_rmse, ratio,
-        kReferenceMargin, std::ceil(double(reference.spp) * factor / 256) * 256,
+        "{}: not in the charts and slopes, because the reference's own error, {:.2g}, is not {:g} "
+        "times smaller: {}. In tables its part is subtracted. {:.0f} samples a pixel would do for "
+        "all, which take about {:.0f} s: --reference-time, --reference-limit.",
+        analysis.scene->name, analysis.reference_rmse, kReferenceMargin, left_out,
+        std::ceil(double(reference.spp) * factor / 256) * 256,
         std::ceil(reference.time_s * factor)));
 }
 
@@ -152,8 +159,10 @@ SceneAnalysis analyse(const Config& config, const SceneRuns& scene,
                       const std::vector<Image>& images, const std::vector<Errors>& errors) {
     SceneAnalysis analysis;
     analysis.scene = &scene;
+    analysis.reference_rmse = std::sqrt(mean_squared_error_of(scene.reference));
     for (const std::string& name : config.methods)
-        analysis.curves.push_back(make_curve(find_method(name), scene, images, errors));
+        analysis.curves.push_back(
+            make_curve(find_method(name), scene, images, errors, analysis.reference_rmse));
     std::vector<Curve>& curves = analysis.curves;
     const auto plain = std::find_if(curves.begin(), curves.end(),
                                     [](const Curve& c) { return !c.method->biased; });

@@ -30,6 +30,9 @@ struct Rung {
     std::vector<Errors> errors;
     Spread time_s, rays, samples_per_pixel;
     std::vector<Spread> metrics;  ///< in the order of all_metrics()
+    /// False if the median RMSE is less than kReferenceMargin times the reference's own: tables
+    /// have it, charts and fits do not.
+    bool is_plotted = true;
 
     /// Mean squared error over seeds, and its parts; nothing with a single seed. `bias_squared` is
     /// unbiased, so that it may be slightly negative.
@@ -62,7 +65,7 @@ struct BiasMap {
 struct Curve {
     const Method* method = nullptr;
     std::vector<Rung> rungs;
-    std::optional<PowerLaw> by_time, by_rays;  ///< of RMSE, through all runs
+    std::optional<PowerLaw> by_time, by_rays;  ///< of RMSE, through all runs that are plotted
     std::optional<ZTest> z_test;
     std::optional<BiasMap> bias_map;
 
@@ -111,7 +114,7 @@ struct Agreement {
 struct SceneAnalysis {
     const SceneRuns* scene = nullptr;
     double reference_rmse = 0;  ///< estimated
-    double smallest_rmse = 0;   ///< plotted
+    double smallest_rmse = 0;   ///< of medians, plotted or not
     std::vector<Curve> curves;
     std::size_t yardstick = 0;  ///< index into curves
     std::vector<Comparison> comparisons;

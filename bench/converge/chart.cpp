@@ -143,7 +143,9 @@ std::string chart_svg(const Chart& chart) {
             y_low = std::min(y_low, low_y(p));
             y_high = std::max(y_high, p.y.high);
         }
-    if (!(x_high > 0)) return "<p class=\"soft\">Nothing to draw: no error is above zero.</p>";
+    if (!(x_high > 0))
+        return "<p class=\"soft\">Nothing to draw: no error is above zero, or "
+               "far enough above the reference's.</p>";
     if (chart.scatter) {
         x_low = y_low = std::min(x_low, y_low);
         x_high = y_high = std::max(x_high, y_high);

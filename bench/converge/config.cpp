@@ -68,7 +68,7 @@ void apply(const json& object, const fs::path& base, Config& config) {
         } else if (key == "reference_spp") {
             config.reference_spp = value.get<int>();
         } else if (key == "reference_sampler") {
-            config.reference_sampler = parse_reference_sampler(value.get<std::string>());
+            config.reference_sampler = parse_sampler(value.get<std::string>(), key);
         } else if (key == "reference_time") {
             config.reference_time_s = value.get<double>();
         } else if (key == "reference_limit") {
@@ -90,21 +90,6 @@ void apply(const json& object, const fs::path& base, Config& config) {
 
 const char* name_of(BudgetUnit unit) {
     return unit == BudgetUnit::spp ? "spp" : unit == BudgetUnit::mu ? "mu" : "s";
-}
-
-Sampler parse_reference_sampler(const std::string& name) {
-    for (Sampler sampler : {Sampler::hash, Sampler::sobol, Sampler::stratified})
-        if (name == to_string(sampler)) return sampler;
-    refuse("--reference-sampler " + name + ": no such sampler; known: hash, sobol, stratified");
-}
-
-Sampler default_reference_sampler(const std::vector<std::string>& methods) {
-    const bool any_strata =
-        std::any_of(methods.begin(), methods.end(), [](const std::string& name) {
-            const Method& method = find_method(name);
-            return !method.peer_script && options_for(method, 1, 0).sampler == Sampler::stratified;
-        });
-    return any_strata ? Sampler::hash : Sampler::stratified;
 }
 
 void parse_budgets(const std::string& text, Budgets& budgets) {
@@ -198,8 +183,6 @@ void complete(Config& config) {
         refuse(fmt::format("--reference-spp: must be positive, got {}", config.reference_spp));
     if (config.reference_spp == 0)
         config.reference_spp = int(std::ceil(kReferenceFactor * config.budgets.spp.back()));
-    if (!config.reference_sampler)
-        config.reference_sampler = default_reference_sampler(config.methods);
     if (!(config.reference_time_s >= 0))
         refuse(fmt::format("--reference-time: must be 0 or more seconds, got {}",
                            config.reference_time_s));

@@ -39,7 +39,7 @@ struct Config {
     std::string size = "192";
     std::optional<int> bounces;  ///< else the scene's
     int reference_spp = 0;       ///< 0: kReferenceFactor times the largest spp of the ladder
-    std::optional<Sampler> reference_sampler;  ///< else default_reference_sampler()
+    Sampler reference_sampler = Sampler::lattice;  ///< no method's
     /// A reference is given more samples until it is kReferenceMargin times better than the best
     /// run, while it has taken less than this and is below `reference_limit`; 0: never.
     double reference_time_s = 0;
@@ -62,13 +62,6 @@ inline constexpr int kReferenceFactor = 16;
 
 /// `reference_time_s` of the command line.
 inline constexpr double kReferenceTime_s = 60;
-
-/// Strata, which leave the least error after as many samples; independent samples if a method runs
-/// with strata, so that a reference shares its sampler with no method it judges.
-Sampler default_reference_sampler(const std::vector<std::string>& methods);
-
-/// Throws Error(usage) that lists the names.
-Sampler parse_reference_sampler(const std::string& name);
 
 /// Reads "spp=2,4,8", "mu=0.5,1" or "s=1,2,4" into `budgets`. Throws Error(usage).
 void parse_budgets(const std::string& text, Budgets& budgets);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kFirstSeed = 1u << 20;  // runs count up from 0
+constexpr uint32_t kFirstSeed = 1u << 20;  // of the two halves; runs count up from 0
 constexpr int kLargestPiece = 256;         // samples per pixel between two visits to the disk
 
 constexpr const char* kPieces = "wedge:pieces";
@@ -115,13 +115,22 @@ Image select_rgb(const Image& image, const std::string& prefix) {
     return out;
 }
 
+/// Half of `spp`, as far as that is a piece.
+int samples_of_piece(int spp) {
+    constexpr int kBatch = int(kSampleBatch);
+    return std::clamp((spp / 2 + kBatch - 1) / kBatch * kBatch, kBatch, kLargestPiece);
+}
+
 RenderOptions piece_options(const ReferenceRequest& request, const Halves& halves) {
     RenderOptions options;
     options.device = request.device;
     options.kernel_dir = request.kernel_dir;
     options.sampler = request.sampler;
     options.samples_per_pixel = halves.piece_samples;
-    options.seed = kFirstSeed + uint32_t(halves.pieces);
+    // A half is one sequence of samples, so that a sampler which spreads them evenly goes on doing
+    // so: the error of independent pieces would fall as slowly as that of independent samples.
+    options.seed = kFirstSeed + uint32_t(halves.pieces % 2);
+    options.sample_offset = uint32_t(halves.pieces / 2) * uint32_t(halves.piece_samples);
     options.stop = request.stop;
     return options;
 }
@@ -161,9 +170,8 @@ Reference make_reference(const Scene& scene, const ReferenceRequest& request) {
     fs::create_directories(request.folder);
     // Pieces do not depend on the samples asked for, so that more can be added; only short
     // references have short ones.
-    const int piece_samples = request.piece_samples
-                                  ? request.piece_samples
-                                  : std::clamp((request.spp + 1) / 2, 1, kLargestPiece);
+    const int piece_samples =
+        request.piece_samples ? request.piece_samples : samples_of_piece(request.spp);
     const int wanted = 2 * int(std::ceil(request.spp / (2.0 * piece_samples)));
     const std::string stem = fmt::format("{}-{}-{}-{}", request.name, request.scene_digest,
                                          to_string(request.sampler), piece_samples);

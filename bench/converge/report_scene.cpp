@@ -21,10 +21,11 @@ std::string chart_figure(const SceneAnalysis& scene, std::size_t metric, bool by
     for (std::size_t i = 0; i < scene.curves.size(); ++i) {
         Series series{series_of(*scene.curves[i].method), scene.curves[i].method->name, {}};
         for (const Rung& rung : scene.curves[i].rungs)
-            series.places.push_back(
-                {by_rays ? rung.rays : rung.time_s, rung.metrics[metric],
-                 note_of(rung) + fmt::format(", {} {}", chart.y_label,
-                                             short_number(rung.metrics[metric].median))});
+            if (rung.is_plotted)
+                series.places.push_back(
+                    {by_rays ? rung.rays : rung.time_s, rung.metrics[metric],
+                     note_of(rung) + fmt::format(", {} {}", chart.y_label,
+                                                 short_number(rung.metrics[metric].median))});
         chart.series.push_back(std::move(series));
     }
     return "<figure>" + chart_svg(chart) +

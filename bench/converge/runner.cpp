@@ -251,7 +251,7 @@ ReferenceRequest reference_request(const Config& config, const std::string& name
     request.name = name;
     request.scene_digest = digest;
     request.spp = config.reference_spp;
-    request.sampler = config.reference_sampler.value_or(default_reference_sampler(config.methods));
+    request.sampler = config.reference_sampler;
     request.device = config.device;
     request.kernel_dir = config.kernel_dir;
     request.stop = config.stop;

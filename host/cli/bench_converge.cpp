@@ -68,7 +68,7 @@ converge::Config make_config(const ConvergeArguments& a) {
     if (a.reference_time_s) config.reference_time_s = *a.reference_time_s;
     if (a.reference_limit) config.reference_limit = *a.reference_limit;
     if (!a.reference_sampler.empty())
-        config.reference_sampler = converge::parse_reference_sampler(a.reference_sampler);
+        config.reference_sampler = parse_sampler(a.reference_sampler, "--reference-sampler");
     config.folder = a.folder;
     config.references = a.references;
     config.device = a.device;
@@ -127,8 +127,8 @@ void register_bench_converge(CLI::App& bench) {
                     "budget",
                     converge::kReferenceFactor));
     command->add_option("--reference-sampler", a->reference_sampler,
-                        "Of the reference: hash, sobol or stratified; default: stratified, or hash "
-                        "if a method runs with strata");
+                        "Of the reference: sobol, stratified, lattice or hash; default: lattice, "
+                        "which is no method's");
     command->add_option(
         "--reference-time", a->reference_time_s,
         fmt::format("The reference gets more samples until it is {:g} times better than the best "

@@ -194,7 +194,8 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--bvh", a.bvh,
                        "Layout of the tree: auto, wide, compressed or binary; default: auto");
     command.add_option("--bvh-quality", a.bvh_quality, "medium or high; default: medium");
-    command.add_option("--sampler", a.sampler, "sobol, stratified or hash; default: sobol");
+    command.add_option("--sampler", a.sampler,
+                       "sobol, stratified, lattice or hash; default: sobol");
     command.add_option(
         "--sample-offset", a.sample_offset,
         fmt::format("First sample of each pixel, a multiple of {}; default: 0", kSampleBatch));

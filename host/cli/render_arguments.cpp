@@ -95,12 +95,6 @@ BvhOptions parse_bvh(const RenderArguments& a) {
     return {.layout = layout->second, .quality = quality->second};
 }
 
-Sampler parse_sampler(const std::string& name) {
-    for (Sampler sampler : {Sampler::sobol, Sampler::stratified, Sampler::hash})
-        if (name == to_string(sampler)) return sampler;
-    refuse("--sampler " + name + ": no such sampler; known: sobol, stratified, hash");
-}
-
 ErrorMetric parse_metric(const std::string& name) {
     if (name == "relmse") return ErrorMetric::rel_mse;
     if (name == "rmse") return ErrorMetric::rmse;
@@ -151,7 +145,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     if (!arguments.crop.empty()) job.options.crop = parse_crop(arguments.crop);
     job.options.seed = parse_seed(arguments.seed);
     job.options.sample_offset = arguments.sample_offset;
-    job.options.sampler = parse_sampler(arguments.sampler);
+    job.options.sampler = parse_sampler(arguments.sampler, "--sampler");
     job.options.bvh = parse_bvh(arguments);
     job.options.method = choose_method(arguments);
     if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));

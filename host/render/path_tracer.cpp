@@ -23,6 +23,8 @@ int sampler_kind(Sampler sampler) {
             return WEDGE_SAMPLER_HASH;
         case Sampler::stratified:
             return WEDGE_SAMPLER_STRATIFIED;
+        case Sampler::lattice:
+            return WEDGE_SAMPLER_LATTICE;
     }
     return WEDGE_SAMPLER_SOBOL;
 }

@@ -134,8 +134,20 @@ const char* to_string(Sampler sampler) {
             return "hash";
         case Sampler::stratified:
             return "stratified";
+        case Sampler::lattice:
+            return "lattice";
     }
     return "unknown";
+}
+
+Sampler parse_sampler(const std::string& name, const std::string& option) {
+    std::string known;
+    for (Sampler sampler : {Sampler::sobol, Sampler::stratified, Sampler::lattice, Sampler::hash}) {
+        if (name == to_string(sampler)) return sampler;
+        known += (known.empty() ? "" : ", ") + std::string(to_string(sampler));
+    }
+    throw Error(ErrorKind::usage,
+                fmt::format("{} {}: no such sampler; known: {}", option, name, known));
 }
 
 const char* to_string(FilterMode mode) {

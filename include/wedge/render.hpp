@@ -17,11 +17,15 @@ namespace wedge {
 
 /// `hash`: independent samples, textbook variance, for statistical tests. `sobol`: Owen-scrambled
 /// Sobol with pixels in Z-order, the default. `stratified`: jittered strata, one sample in each,
-/// the yardstick of the papers (docs/method.md).
-enum class Sampler { sobol, hash, stratified };
+/// the yardstick of the papers. `lattice`: shifted multiples of badly approximable numbers, to
+/// judge the others with (docs/method.md).
+enum class Sampler { sobol, hash, stratified, lattice };
 
-/// As users write it: "sobol", "hash", "stratified".
+/// As users write it: "sobol", "hash", "stratified", "lattice".
 const char* to_string(Sampler sampler);
+
+/// The other way round. Throws Error(usage) that begins with `option` and lists the names.
+Sampler parse_sampler(const std::string& name, const std::string& option);
 
 /// `mc`: plain path tracing, unbiased. `aaf`: soft shadows and indirect light are sampled as
 /// densely as their frequencies ask for, and filtered (docs/method.md); all else as `mc`.

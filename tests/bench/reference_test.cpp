@@ -5,8 +5,10 @@
 
 #include <cmath>
 
+#include "bench/converge/analysis.hpp"
 #include "bench/converge/errors.hpp"
 #include "bench/converge/reference_margin.hpp"
+#include "bench/converge/report_sections.hpp"
 #include "bench/converge/runner.hpp"
 #include "tests/bench/temporary_folder.hpp"
 #include "wedge/image_io.hpp"
@@ -76,7 +78,8 @@ TEST_CASE("halves_of_a_reference_tell_its_error_with_any_sampler") {
     options.samples_per_pixel = 4096;
     options.seed = 7;
     const Image truth = render(scene, options).image;
-    for (const Sampler sampler : {Sampler::hash, Sampler::stratified, Sampler::sobol}) {
+    for (const Sampler sampler :
+         {Sampler::hash, Sampler::stratified, Sampler::sobol, Sampler::lattice}) {
         CAPTURE(to_string(sampler));
         const TemporaryFolder folder;
         ReferenceRequest request;
@@ -91,6 +94,46 @@ TEST_CASE("halves_of_a_reference_tell_its_error_with_any_sampler") {
         CHECK(ratio > 0.75);
         CHECK(ratio < 1.3);
     }
+}
+
+// Independent pieces would make it fall with 1 / n.
+TEST_CASE("pieces_of_a_reference_complement_each_other") {
+    Scene scene = load_scene(kGrids, {});
+    scene.film = {48, 36};
+    const TemporaryFolder folder;
+    ReferenceRequest request;
+    request.folder = folder.path();
+    request.name = "grids";
+    request.scene_digest = "digest";
+    request.sampler = Sampler::lattice;
+    request.spp = 32;
+    const Reference two = make_reference(scene, request);
+    REQUIRE(two.piece_samples == 16);
+    request.piece_samples = 16;
+    request.spp = 32 * 32;
+    const Reference more = make_reference(scene, request);
+    CHECK(more.spp == uint64_t(request.spp));
+    CHECK(mean_squared_error_of(two) / mean_squared_error_of(more) > 1.2 * 32);
+}
+
+TEST_CASE("what_a_reference_cannot_judge_is_not_plotted") {
+    const TemporaryFolder folder;
+    Config config = config_with_poor_reference(folder.path());
+    config.budgets.spp = {4, 1024};
+    config.reference_spp = 512;
+    const SceneRuns scene = run_quietly(config);
+    const std::vector<Image> images = read_images(config, scene);
+    const SceneAnalysis analysis =
+        analyse(config, scene, images, errors_of_runs(config, scene, images));
+    const std::vector<Rung>& rungs = analysis.curves[0].rungs;
+    REQUIRE(rungs.size() == 2);
+    CHECK(rungs[0].is_plotted);
+    CHECK_FALSE(rungs[1].is_plotted);
+    const std::string charts = charts_section(analysis);
+    CHECK(charts.find("4 spp, ") != std::string::npos);
+    CHECK(charts.find("1024 spp, ") == std::string::npos);
+    REQUIRE(analysis.warnings.size() == 1);
+    CHECK(analysis.warnings[0].find("mc-sobol spp=1024") != std::string::npos);
 }
 
 TEST_CASE("a_reference_that_is_too_poor_gets_more_samples") {
@@ -136,8 +179,9 @@ TEST_CASE("wanted_samples_bring_the_error_down_by_one_over_n") {
 }
 
 TEST_CASE("a_reference_shares_its_sampler_with_no_method") {
-    CHECK(default_reference_sampler({"mc-sobol", "mc-hash", "aaf", "mitsuba"}) ==
-          Sampler::stratified);
-    CHECK(default_reference_sampler({"mc-sobol", "mc-stratified"}) == Sampler::hash);
-    CHECK(default_reference_sampler({"mc-sobol", "aaf-stratified"}) == Sampler::hash);
+    for (const wedge::converge::Method& method : all_methods()) {
+        CAPTURE(method.name);
+        if (!method.peer_script && !method.external_source)
+            CHECK(options_for(method, 1, 0).sampler != Config().reference_sampler);
+    }
 }

@@ -36,7 +36,7 @@ const std::vector<WrongCall> kWrongOptions{
     {{"--crop", "2147483647,0,2147483647,1"}, "reaches outside the film"},
     {{"--resume", "--checkpoint", "--pixel", "32,0"}, "outside the film of 32x24 px"},
     {{"--pixel", "3"}, "expected X,Y"},
-    {{"--sampler", "lottery"}, "known: sobol, stratified, hash"},
+    {{"--sampler", "lottery"}, "known: sobol, stratified, lattice, hash"},
     {{"--tone", "sepia"}, "srgb"},
     {{"--aov", "N,nonsense"}, "nonsense: no such layer; known: "},
     {{"--sample-offset", "3"}, "must be a multiple of 4"},

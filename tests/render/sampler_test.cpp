@@ -10,6 +10,9 @@
 namespace wedge::test {
 namespace {
 
+constexpr int kSamplers[] = {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED,
+                             WEDGE_SAMPLER_LATTICE};
+
 /// True if every box of 2^-a x 2^-(m - a) holds exactly one of the 2^m points, for all a: a (0, m,
 /// 2)-net.
 bool is_net(const std::vector<float2>& points, int m) {
@@ -115,9 +118,37 @@ TEST_CASE("strata_of_two_dimensions_are_paired_at_random") {
     CHECK(chi_square_p_value(observed, expected) > 1e-4);
 }
 
+/// Of the share of a pixel's samples that fall into a disc, over pixels: mean squared error over
+/// that of independent samples, p (1 - p) / n.
+double disc_error(SamplingKernels& kernels, uint32_t first, uint32_t count) {
+    constexpr uint32_t kPixels = 200;
+    constexpr double kRadius = 0.4, kArea = 3.14159265358979 * kRadius * kRadius;
+    double sum = 0;
+    for (uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        int inside = 0;
+        for (const float2& p :
+             kernels.points(WEDGE_SAMPLER_LATTICE, 1, 0, pixel, first, pixel % 7, count))
+            inside += std::hypot(p.x - 0.5, p.y - 0.5) < kRadius;
+        const double error = inside / double(count) - kArea;
+        sum += error * error;
+    }
+    return sum / kPixels / (kArea * (1 - kArea) / count);
+}
+
+// At an edge the variance of evenly spread points falls with n^-3/2.
+TEST_CASE("lattice_points_find_an_area_sooner_than_independent_ones") {
+    SamplingKernels kernels;
+    const double few = disc_error(kernels, 0, 256), many = disc_error(kernels, 0, 4096);
+    CHECK(few < 0.2);
+    CHECK(many < 0.4 * few);
+    // Wherever an aligned stretch begins, and for numbers that are no powers of two.
+    CHECK(disc_error(kernels, 1280, 256) < 1.5 * few);
+    CHECK(disc_error(kernels, 0, 1000) < 0.2);
+}
+
 TEST_CASE("seeds_pixels_and_dimensions_give_different_points") {
     SamplingKernels kernels;
-    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED}) {
+    for (int sampler : kSamplers) {
         const float2 p = kernels.points(sampler, 1, 6, 10, 0, 0, 1)[0];
         for (const float2& q : {kernels.points(sampler, 2, 6, 10, 0, 0, 1)[0],
                                 kernels.points(sampler, 1, 6, 11, 0, 0, 1)[0],
@@ -130,7 +161,7 @@ TEST_CASE("seeds_pixels_and_dimensions_give_different_points") {
 TEST_CASE("points_are_uniform_over_the_square") {
     SamplingKernels kernels;
     constexpr int kSide = 32;
-    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED}) {
+    for (int sampler : kSamplers) {
         std::vector<double> observed(kSide * kSide, 0.0);
         // One sample each of many pixels of different seeds: for Sobol, its scrambling alone.
         const uint32_t count = 100;
@@ -153,7 +184,7 @@ TEST_CASE("points_are_uniform_over_the_square") {
 TEST_CASE("dimension_pairs_are_not_correlated") {
     SamplingKernels kernels;
     constexpr uint32_t kCount = 1u << 14;
-    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL})
+    for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_LATTICE})
         for (uint32_t dimension = 1; dimension < 6; ++dimension) {
             const auto a = kernels.points(sampler, 1, 14, 5, 0, 0, kCount);
             const auto b = kernels.points(sampler, 1, 14, 5, 0, dimension, kCount);

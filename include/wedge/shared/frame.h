@@ -17,6 +17,7 @@ WEDGE_ASSERT_SIZE(CameraRays, 64);
 #define WEDGE_SAMPLER_HASH 0
 #define WEDGE_SAMPLER_SOBOL 1
 #define WEDGE_SAMPLER_STRATIFIED 2
+#define WEDGE_SAMPLER_LATTICE 3
 
 #define WEDGE_DOUBLING_FROM(k) (-(k)) /* k > 0; kernels/lib/random.clh */
 
