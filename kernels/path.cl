@@ -174,7 +174,8 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             result.depth = hit.t * dot(ray.direction, view_axis);
 #if WEDGE_SIGNALS > 0
             surface = add_to_surface(signals, &s, &f, hit.t * signals->pixel_angle);
-            lit = !signals->camera_only || lacks_light(signals, surface);
+            lit = !signals->camera_only ||
+                  (max_component(result.albedo) > 0.0f && lacks_light(signals, surface));
             if (!lit) {
 #if WEDGE_SHADOW_LIGHTS > 0
                 reflect_shadow_lights(scene, &s, &f, sampler, surface, signals);
@@ -242,7 +243,8 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     }
     if (max_component(arriving) > 0.0f) result.indirect = first.reflected * arriving;
 #ifdef WEDGE_FILTER_HEMISPHERE
-    if (surface >= 0 && lit) {
+    /* What is black ends paths: it does not tell how bright its surroundings are. */
+    if (surface >= 0 && lit && max_component(result.albedo) > 0.0f) {
         add_hemisphere(signals, surface, &first, arriving);
         result.filtered_indirect = result.indirect;
     }
