@@ -247,7 +247,7 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
     if (slopes.x < 0.0f) return (float2)(0.0f);
     const float sigma = light_sigma(light);
     const float k = light->edge_u.w > 0.0f ? settings->k_gaussian : settings->k_uniform;
-    const float width = shadow_filter_sigma(slopes.x, sigma, pixel, settings->mu,
+    const float width = shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing,
                                             settings->alpha_direct, k);
     if (!(slopes.x > 0.0f)) /* an occluder that touches */
         return (float2)(width, (float)settings->max_samples);
@@ -263,7 +263,7 @@ inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float2 f
     const float far_away = 1e6f * pixel;
     const float z_min = fmax(found.x > 0.0f ? 1.0f / found.x : far_away, band * pixel / alpha);
     const float z_max = fmax(found.y, z_min);
-    return (float2)(indirect_filter_sigma(z_min, band, pixel, mu, alpha),
+    return (float2)(indirect_filter_sigma(z_min, band, pixel, settings->narrowing, alpha),
                     indirect_sample_count(z_min, z_max, band, share, pixel, mu, alpha));
 }
 
@@ -334,12 +334,14 @@ inline float nearest_power_of_two(float v) { return as_float(as_int(1.41421356f 
    low-discrepancy sequence and rises with the square of the contrast C: for a given number of rays in all, the
    sum of squares is least with n proportional to C^(2 / 2.5). The noise of what is filtered falls about with 1 / mu. */
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
+#define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
 inline uint camera_rays(__constant FilterSettings* settings, float contrast, float mean_brightness) {
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges * pow(settings->mu, 4.0f / 3.0f) *
                     pow(contrast / mean_brightness, 0.8f);
-    return (uint)nearest_power_of_two(clamp(n, 1.0f, WEDGE_MOST_CAMERA_RAYS));
+    const float most = fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
+    return (uint)nearest_power_of_two(clamp(n, 1.0f, most));
 }
 
 /* Variance, from one sample to the next, of the radiance that a signal makes of a pixel. */

@@ -27,10 +27,17 @@ constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 12;       // of filter_y
 constexpr cl_uint kBrightnessArg = 13;  // of filter_bandwidth
 
-/// Of the guard. The narrower filters are than theory asks for (mu = 1), the less is their bias,
-/// and what seems to be one is luck.
-float benefit_of_doubt(float mu) {
-    return std::clamp(1 + std::log2(mu), 1.0f, 2.0f);
+/// By the equations widths shrink with 1 / mu, and the samples a filter reaches stay as many: where
+/// mu asks for less error than the theory's, noise would not fall. With the square root, bias,
+/// which falls with the square of a width, falls as the noise that is aimed at does, with 1 / mu.
+float narrowing(float mu) {
+    return mu > 1 ? std::sqrt(mu) : mu;
+}
+
+/// Of the guard. The narrower filters are than theory asks for, the less is their bias, and what
+/// seems to be one is luck.
+float benefit_of_doubt(float narrowing) {
+    return std::clamp(1 + std::log2(narrowing), 1.0f, 2.0f);
 }
 
 int mode_of(FilterMode mode) {
@@ -72,6 +79,7 @@ int probe_samples(const Scene& scene, int bounces) {
 shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options) {
     shared::FilterSettings s{};
     s.mu = options.mu;
+    s.narrowing = narrowing(options.mu);
     s.alpha_direct = kAlphaDirect;
     s.alpha_indirect = kAlphaIndirect;
     s.k_gaussian = kGaussian;
@@ -83,7 +91,7 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
     s.least_samples = options.adaptive ? s.probe_samples : s.max_samples;
     s.mode = mode_of(options.filter);
-    s.doubt = benefit_of_doubt(s.mu);
+    s.doubt = benefit_of_doubt(s.narrowing);
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
     s.camera_rays_at_edges = bounces > 0 ? kCameraRaysWithBounces : kCameraRaysAlone;

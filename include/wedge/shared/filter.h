@@ -106,7 +106,8 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 
 /* Settings of the method; the defaults are in host/render/signal_filter.cpp. */
 typedef struct FilterSettings {
-    float mu;           /* bandwidth scale: larger is narrower filters and more samples */
+    float mu;           /* bandwidth scale: larger is more samples */
+    float narrowing;    /* widths of filters are what the theory asks for over this */
     float alpha_direct; /* band limit of geometry as a share of the pixel's */
     float alpha_indirect;
     float k_gaussian,
@@ -119,7 +120,7 @@ typedef struct FilterSettings {
     int mode;                 /* WEDGE_FILTER_MODE_* */
     float doubt; /* standard errors that are taken off the square of a drift between filters */
 } FilterSettings;
-WEDGE_ASSERT_SIZE(FilterSettings, 52);
+WEDGE_ASSERT_SIZE(FilterSettings, 56);
 
 /* What is done with what was sampled: guarded filters, filters everywhere, none. */
 #define WEDGE_FILTER_MODE_GUARDED 0
