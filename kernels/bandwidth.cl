@@ -12,10 +12,10 @@
 
 /* One number of WEDGE_PLACE_* of a surface. */
 #define WEDGE_PLACE(planes, places, surface, what, at) \
-    (places)[((surface) * WEDGE_PLACE_PLANES + (what)) * (planes)->size + (at)]
+    (places)[((surface)*WEDGE_PLACE_PLANES + (what)) * (planes)->size + (at)]
 
-inline void set_place(const Planes* planes, __global float* places, int surface, ulong at, float3 position,
-                      float3 normal, float size, float slanted_size) {
+inline void set_place(const Planes* planes, __global float* places, int surface, ulong at,
+                      float3 position, float3 normal, float size, float slanted_size) {
     WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_X, at) = position.x;
     WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_Y, at) = position.y;
     WEDGE_PLACE(planes, places, surface, WEDGE_PLACE_Z, at) = position.z;
@@ -49,7 +49,8 @@ __kernel void filter_surfaces(__global const FrameParams* restrict params,
     }
 }
 
-/* Variance from one sample to the next, unbiased, of whether a light is seen: at most 1/4. < 0: too few samples. */
+/* Variance from one sample to the next, unbiased, of whether a light is seen: at most 1/4. Below 0:
+   too few samples. */
 inline float visibility_variance(float4 sums) {
     const float n = sums.w, seen = sums.x / sums.y;
     if (!(n > 1.0f)) return -1.0f;
@@ -81,7 +82,7 @@ inline float3 find(const DistanceRange d, float4 first, float4 second, int signa
 }
 
 #define WEDGE_FOUND(planes, found, entry, what, at) \
-    (found)[((entry) * WEDGE_FOUND_PLANES + (what)) * (planes)->size + (at)]
+    (found)[((entry)*WEDGE_FOUND_PLANES + (what)) * (planes)->size + (at)]
 
 __kernel void filter_distances(__global const DistanceRange* restrict distances,
                                __global const float4* restrict sums, __global float* restrict found,
@@ -106,9 +107,9 @@ typedef struct {
     Group group;
 } Neighbours;
 
-/* Probe samples that find no occluder say little about penumbrae near by: the pixel takes the mean of
-   those of its neighbours that found one, as in the thesis, section 3.6. Nearest reflectors are a matter of luck
-   with few samples: means over a few pixels vary less. */
+/* Probe samples that find no occluder say little about penumbrae near by: the pixel takes the mean
+   of those of its neighbours that found one, as in the thesis, section 3.6. Nearest reflectors are
+   a matter of luck with few samples: means over a few pixels vary less. */
 #define NEIGHBOURHOOD_PX 5
 #define SMOOTHING_PX 2
 #define VARIANCE_PX 1
@@ -132,11 +133,13 @@ inline void add_found(FoundSums* sums, float8 least, float8 most, int8 is_same) 
 }
 
 inline float8 load_found(const Neighbours* n, int surface, int signal, int what, ulong at) {
-    return load8(&n->planes, n->found, (surface * WEDGE_SIGNALS + signal) * WEDGE_FOUND_PLANES + what, at);
+    return load8(&n->planes, n->found,
+                 (surface * WEDGE_SIGNALS + signal) * WEDGE_FOUND_PLANES + what, at);
 }
 
 /* What pixels a step of (i, j) away found, as far as they show surface p. */
-inline void add_step(const Neighbours* n, const Places8* p, int i, int j, FoundSums sums[WEDGE_SIGNALS]) {
+inline void add_step(const Neighbours* n, const Places8* p, int i, int j,
+                     FoundSums sums[WEDGE_SIGNALS]) {
     const ulong at = n->group.at + (ulong)((long)j * n->planes.pitch + i);
     const int8 on_film = is_on_row(&n->planes, &n->group, i);
     for (int other = 0; other < WEDGE_SURFACES; ++other) {
@@ -175,8 +178,8 @@ inline void add_neighbourhood(const Neighbours* n, const Places8* p, int signal,
 }
 
 /* Lights keep what the pixel itself found. */
-inline void store_near_by(const Neighbours* n, const Places8* p, int surface, int signal, FoundSums* sums,
-                          __global float* near_by) {
+inline void store_near_by(const Neighbours* n, const Places8* p, int surface, int signal,
+                          FoundSums* sums, __global float* near_by) {
     const Planes* planes = &n->planes;
     const ulong at = n->group.at;
     const float8 own = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at);
@@ -211,10 +214,12 @@ inline int8 ends_here(const Neighbours* n, const Places8* p) {
     return ends & (p->size > 0.0f);
 }
 
-/* near_by: as `found`, of the pixel or its neighbourhood. ends: 1 where a pixel's first surface does not go on. */
+/* near_by: as `found`, of the pixel or its neighbourhood. ends: 1 where a pixel's first surface
+   does not go on. */
 __kernel void filter_neighbours(__global const float* restrict places,
-                                __global const float* restrict found, __global float* restrict near_by,
-                                __global float* restrict ends, int width, int height) {
+                                __global const float* restrict found,
+                                __global float* restrict near_by, __global float* restrict ends,
+                                int width, int height) {
     Neighbours n = {places, found, make_planes(width, height)};
     n.group = group_in_rows(&n.planes, (int)get_global_id(0));
     if (!is_on_film(&n.planes, &n.group)) return;
@@ -223,14 +228,16 @@ __kernel void filter_neighbours(__global const float* restrict places,
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
         const Places8 p = load_places8(&n.planes, places, surface, n.group.at);
         if (surface == 0)
-            store8(ends_here(&n, &p) ? (float8)(1.0f) : (float8)(0.0f), &n.planes, ends, 0, n.group.at);
+            store8(ends_here(&n, &p) ? (float8)(1.0f) : (float8)(0.0f), &n.planes, ends, 0,
+                   n.group.at);
         if (!lane_bits8(p.size > 0.0f)) break;
         FoundSums sums[WEDGE_SIGNALS];
         for (int s = 0; s < WEDGE_SIGNALS; ++s)
             sums[s].least = sums[s].most = sums[s].found = sums[s].variance = sums[s].varied = 0.0f;
         for (int j = -above; j <= below; ++j)
             for (int i = -radius; i <= radius; ++i) add_step(&n, &p, i, j, sums);
-        for (int s = 0; s < WEDGE_SIGNALS; ++s) store_near_by(&n, &p, surface, s, sums + s, near_by);
+        for (int s = 0; s < WEDGE_SIGNALS; ++s)
+            store_near_by(&n, &p, surface, s, sums + s, near_by);
     }
 }
 
@@ -247,16 +254,16 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
     if (slopes.x < 0.0f) return (float2)(0.0f);
     const float sigma = light_sigma(light);
     const float k = light->edge_u.w > 0.0f ? settings->k_gaussian : settings->k_uniform;
-    const float width = shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing,
-                                            settings->alpha_direct, k);
+    const float width =
+        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing, settings->alpha_direct, k);
     if (!(slopes.x > 0.0f)) /* an occluder that touches */
         return (float2)(width, (float)settings->max_samples);
-    return (float2)(width, shadow_sample_count(slopes.x, slopes.y, sigma, pixel,
-                                                          settings->mu, settings->alpha_direct));
+    return (float2)(width, shadow_sample_count(slopes.x, slopes.y, sigma, pixel, settings->mu,
+                                               settings->alpha_direct));
 }
 
-/* The thesis keeps z_min from being less than a share of the scene. Here it is kept from being less than where the
-   filter is as narrow as pixels let it be: nearer reflectors do not add frequencies. */
+/* The thesis keeps z_min from being less than a share of the scene. Here it is kept from being less
+   than where the filter is as narrow as pixels let it be: nearer ones do not add frequencies. */
 inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float2 found, float band,
                                    float share, float pixel) {
     const float mu = settings->mu, alpha = settings->alpha_indirect;
@@ -297,8 +304,8 @@ inline float brightness(__global const FilmPixel* p) {
     return mean_emission(p) + luminance(p->direct.xyz + p->indirect.xyz) / fmax(p->direct.w, 1.0f);
 }
 
-__kernel void filter_brightness(__global const FilmPixel* restrict film, __global float* restrict rows,
-                                int width, int height) {
+__kernel void filter_brightness(__global const FilmPixel* restrict film,
+                                __global float* restrict rows, int width, int height) {
     const int y = (int)get_global_id(0);
     if (y >= height) return;
     float sum = 0.0f;
@@ -309,11 +316,14 @@ __kernel void filter_brightness(__global const FilmPixel* restrict film, __globa
 /* True if a pixel shows an edge: more than one surface, or a colour that is not its neighbours'. */
 #define WEDGE_SAME_COLOUR 0.1f
 
-inline bool differs(float a, float b) { return fabs(a - b) > WEDGE_SAME_COLOUR * fmax(a, b); }
+inline bool differs(float a, float b) {
+    return fabs(a - b) > WEDGE_SAME_COLOUR * fmax(a, b);
+}
 
-/* Largest difference of brightness to the next pixels, if there is an edge; else 0. `is_edge`: the pixel's surface ends
-   beside it. */
-inline float edge_contrast(__global const FilmPixel* film, bool is_edge, int x, int y, int width, int height) {
+/* Largest difference of brightness to the next pixels, if there is an edge; else 0. `is_edge`: the
+   pixel's surface ends beside it. */
+inline float edge_contrast(__global const FilmPixel* film, bool is_edge, int x, int y, int width,
+                           int height) {
     __global const FilmPixel* own = film + y * width + x;
     const float e = mean_emission(own), r = mean_reflectance(own), b = brightness(own);
     float contrast = 0.0f;
@@ -321,26 +331,32 @@ inline float edge_contrast(__global const FilmPixel* film, bool is_edge, int x, 
         const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
         if (x + i < 0 || x + i >= width || y + j < 0 || y + j >= height) continue;
         __global const FilmPixel* other = own + j * width + i;
-        is_edge = is_edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
+        is_edge =
+            is_edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
         contrast = fmax(contrast, fabs(b - brightness(other)));
     }
     return is_edge ? contrast : 0.0f;
 }
 
 /* In the logarithm; v >= 1. The exponent of sqrt(2) v is that of v, rounded. */
-inline float nearest_power_of_two(float v) { return as_float(as_int(1.41421356f * v) & 0x7f800000); }
+inline float nearest_power_of_two(float v) {
+    return as_float(as_int(1.41421356f * v) & 0x7f800000);
+}
 
-/* Camera rays of a pixel. What they are for is the noise of coverage, whose square falls with n^-1.5 under a
-   low-discrepancy sequence and rises with the square of the contrast C: for a given number of rays in all, the
-   sum of squares is least with n proportional to C^(2 / 2.5). The noise of what is filtered falls about with 1 / mu. */
+/* Camera rays of a pixel. What they are for is the noise of coverage, whose square falls with
+   n^-1.5 under a low-discrepancy sequence and rises with the square of the contrast C: for a given
+   number of rays in all, the sum of squares is least with n proportional to C^(2 / 2.5). The noise
+   of what is filtered falls about with 1 / mu. */
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
 #define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
-inline uint camera_rays(__constant FilterSettings* settings, float contrast, float mean_brightness) {
+inline uint camera_rays(__constant FilterSettings* settings, float contrast,
+                        float mean_brightness) {
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges * pow(settings->mu, 4.0f / 3.0f) *
                     pow(contrast / mean_brightness, 0.8f);
-    const float most = fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
+    const float most =
+        fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
     return (uint)nearest_power_of_two(clamp(n, 1.0f, most));
 }
 
@@ -354,10 +370,11 @@ inline float radiance_variance(__global const SurfaceSum* sum, __global const fl
     return variance * scale * scale;
 }
 
-/* The theory's number of samples keeps light of full contrast from aliasing. It is scaled by the contrast that there
-   is: four times the variance as a share of the square of what counts as bright, since a light that half of the
-   samples see has a variance of a quarter. It does not know noise: where filters shrink with mu, that of few
-   samples would grow, so there are as many as keep it below a share of brightness that shrinks with mu, too. */
+/* The theory's number of samples keeps light of full contrast from aliasing. It is scaled by the
+   contrast that there is: four times the variance as a share of the square of what counts as
+   bright, since a light that half of the samples see has a variance of a quarter. It does not know
+   noise: where filters shrink with mu, that of few samples would grow, so there are as many as keep
+   it below a share of brightness that shrinks with mu, too. */
 #define WEDGE_NOISE 0.01f /* for mu = 1 */
 
 inline float noise_samples(float mu, float relative_variance, float pixels) {
@@ -366,7 +383,8 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
 }
 
 /* Variance, from one sample to the next, of radiance that is not filtered: mean over 3x3 pixels. */
-inline float rest_variance(__global const HalfLight* unfiltered, int x, int y, int width, int height) {
+inline float rest_variance(__global const HalfLight* unfiltered, int x, int y, int width,
+                           int height) {
     float sum = 0.0f, count = 0.0f;
     for (int j = max(y - 1, 0); j <= min(y + 1, height - 1); ++j)
         for (int i = max(x - 1, 0); i <= min(x + 1, width - 1); ++i) {
@@ -380,15 +398,17 @@ inline float rest_variance(__global const HalfLight* unfiltered, int x, int y, i
     return count > 0.0f ? sum / count : 0.0f;
 }
 
-/* Width of a signal's filter and how many samples it asks for; `bright`: square of what counts as bright. */
+/* Width of a signal's filter and how many samples it asks for; `bright`: square of what counts as
+   bright. */
 typedef struct {
     float sigma, samples;
 } Need;
 
 inline Need signal_need(__constant FilterSettings* settings, __global const Light* lights,
-                        __global const SurfaceSum* sum, __global const float4* reflected, int signal,
-                        float3 found, float size, float slanted_size, float bright) {
-    const float2 bandwidth = signal_bandwidth(settings, lights, sum, signal, found.xy, slanted_size);
+                        __global const SurfaceSum* sum, __global const float4* reflected,
+                        int signal, float3 found, float size, float slanted_size, float bright) {
+    const float2 bandwidth =
+        signal_bandwidth(settings, lights, sum, signal, found.xy, slanted_size);
     Need need = {bandwidth.x, 0.0f};
     const float relative = radiance_variance(sum, reflected, signal, fmax(found.z, 0.0f)) / bright;
     if (!(bandwidth.y > 0.0f && relative > 0.0f)) return need;
@@ -398,18 +418,16 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
     return need;
 }
 
-/* near_by, ends: of filter_neighbours. sigmas: world units, 0 where nothing is to be filtered. sample_ends: x, samples
-   each pixel is brought to, powers of two, which the sampler likes best; y: camera rays. */
-__kernel void filter_bandwidth(__constant FilterSettings* settings,
-                               __global const Light* restrict lights,
-                               __global const FilmPixel* restrict film,
-                               __global const SurfaceSum* restrict surface_sums,
-                               __global const float* restrict places,
-                               __global const float* restrict near_by, __global const float* restrict ends,
-                               __global const float4* restrict reflected,
-                               __global float* restrict sigmas, __global uint2* restrict sample_ends,
-                               __global const HalfLight* restrict unfiltered, int width, int height,
-                               float mean_brightness) {
+/* near_by, ends: of filter_neighbours. sigmas: world units, 0 where nothing is to be filtered.
+   sample_ends: x, samples each pixel is brought to, powers of two, which the sampler likes best; y:
+   camera rays. */
+__kernel void filter_bandwidth(
+    __constant FilterSettings* settings, __global const Light* restrict lights,
+    __global const FilmPixel* restrict film, __global const SurfaceSum* restrict surface_sums,
+    __global const float* restrict places, __global const float* restrict near_by,
+    __global const float* restrict ends, __global const float4* restrict reflected,
+    __global float* restrict sigmas, __global uint2* restrict sample_ends,
+    __global const HalfLight* restrict unfiltered, int width, int height, float mean_brightness) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
@@ -430,19 +448,23 @@ __kernel void filter_bandwidth(__constant FilterSettings* settings,
             const float3 found = {WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_LEAST, at),
                                   WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_MOST, at),
                                   WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_VARIANCE, at)};
-            const Need need = signal_need(settings, lights, surface_sums + id, reflected + id * WEDGE_SHADOW_LIGHTS,
-                                          signal, found, size, slanted_size, bright);
+            const Need need = signal_need(settings, lights, surface_sums + id,
+                                          reflected + id * WEDGE_SHADOW_LIGHTS, signal, found, size,
+                                          slanted_size, bright);
             sigmas[entry * planes.size + at] = need.sigma;
             most = fmax(most, need.samples);
         }
         if (most > 0.0f) samples += most * surface_sums[id].position.w / seen;
     }
-    samples = fmax(samples, noise_samples(settings->mu, rest_variance(unfiltered, x, y, width, height) / bright, 1.0f));
+    samples = fmax(
+        samples,
+        noise_samples(settings->mu, rest_variance(unfiltered, x, y, width, height) / bright, 1.0f));
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
     const float least = (float)settings->least_samples;
     const float power = nearest_power_of_two(clamp(samples, probes, cap));
     const uint end = (uint)clamp(power, least, cap);
-    const bool is_edge = surface_sums[pixel * WEDGE_SURFACES].position.w != film[pixel].normal.w || ends[at] > 0.0f;
+    const bool is_edge =
+        surface_sums[pixel * WEDGE_SURFACES].position.w != film[pixel].normal.w || ends[at] > 0.0f;
     const float contrast = edge_contrast(film, is_edge, x, y, width, height);
     sample_ends[pixel] = (uint2)(end, max(end, camera_rays(settings, contrast, mean_brightness)));
 }

@@ -1,12 +1,15 @@
-/* Path tracing: the plain Monte Carlo estimate of the light that reaches every pixel, unbiased for paths of
-   up to `bounces` indirect bounces. One work-item owns one pixel and sums its samples in order.
+/* Path tracing: the plain Monte Carlo estimate of the light that reaches every pixel, unbiased for
+   paths of up to `bounces` indirect bounces. One work-item owns one pixel and sums its samples in
+   order.
 
-   At each vertex one light is sampled (next-event estimation); where the path goes on anyway, light that
-   the ray happens to meet counts too, both weighted by the balance heuristic (Veach 1997, eq. 9.8).
+   At each vertex one light is sampled (next-event estimation); where the path goes on anyway, light
+   that the ray happens to meet counts too, both weighted by the balance heuristic (Veach 1997,
+   eq. 9.8).
 
    WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
-   WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for filtering (lib/signals.clh,
-   filter.cl), beside the plain estimate.
+   WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for filtering
+   (lib/signals.clh, filter.cl), beside the plain estimate.
+
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
 #include "lib/film.clh"
 #include "lib/light.clh"
@@ -37,8 +40,8 @@ inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     return ray;
 }
 
-/* Light that arrives straight from a sampled light and is scattered to wo. `weighted`: the path goes on
-   and may meet the same light by itself. */
+/* Light that arrives straight from a sampled light and is scattered to wo. `weighted`: the path
+   goes on and may meet the same light by itself. */
 inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
                             uint first_light, float choice, float2 u, bool weighted,
                             PathResult* result) {
@@ -62,7 +65,7 @@ inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f,
 typedef struct {
     float3 reflected; /* share that goes on to the camera, over the ray's density */
 #if WEDGE_SIGNALS > 0
-    float3 lobe_share;  /* of `reflected`: by the lobe */
+    float3 lobe_share;   /* of `reflected`: by the lobe */
     float diffuse, lobe; /* the same for kd = 1 and for ks = 1 alone */
 #endif
 } FirstBounce;
@@ -111,7 +114,8 @@ inline void add_hemisphere(const PixelSignals* signals, int surface, const First
 #endif
 
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
-                             float3 view_axis, const Sampler* sampler WEDGE_SIGNAL_PARAMS WEDGE_REPLAY_PARAMS) {
+                             float3 view_axis,
+                             const Sampler* sampler WEDGE_SIGNAL_PARAMS WEDGE_REPLAY_PARAMS) {
     PathResult result;
     WEDGE_IF_REPLAY(result.record = record;)
     result.emission = result.direct = result.indirect = (float3)(0.0f);
@@ -129,8 +133,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     FirstBounce first;
     float3 arriving = (float3)(0.0f);   /* at the first hit, along the scattered ray */
     float3 throughput = (float3)(1.0f); /* since the first hit */
-    float3 ray_start = ray.origin; /* the surface point itself: light was sampled as seen from there */
-    float pdf_direction = 0.0f; /* of the ray, over solid angle; 0: only this ray could find the light */
+    /* The surface point itself: light was sampled as seen from there. */
+    float3 ray_start = ray.origin;
+    /* Of the ray, over solid angle; 0: only this ray could find the light. */
+    float pdf_direction = 0.0f;
     for (int depth = 0; depth <= bounces + 1; ++depth) {
         result.rays += 1;
         const Hit hit = trace_closest(scene->tree, ray);
@@ -154,7 +160,8 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         if (max_component(emitted) > 0.0f) {
             float3 share = (float3)(1.0f);
 #if WEDGE_SHADOW_LIGHTS > 0
-            if (depth == 1) share = share_at_first_hit(scene, s.light, first.lobe_share, &pdf_light);
+            if (depth == 1)
+                share = share_at_first_hit(scene, s.light, first.lobe_share, &pdf_light);
 #endif
             const float weight =
                 pdf_direction > 0.0f ? pdf_direction / (pdf_direction + pdf_light) : 1.0f;
@@ -189,11 +196,11 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         const float3 so_far = depth > 0 ? first.reflected * throughput : throughput;
         if (depth > bounces) {
             WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, so_far,
-                                   emitted, (float3)(0.0f), s.primitive, s.material);)
+                                       emitted, (float3)(0.0f), s.primitive, s.material);)
             break;
         }
 
-        /* The last vertex goes on only to look for what light sampling finds badly or not at all. */
+        /* The last vertex goes on only to look for light that sampling finds badly or never. */
         const bool goes_on =
             depth < bounces || f.specular_chance > 0.0f || params->search_lights != 0;
         const float2 choice = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE));
@@ -266,12 +273,11 @@ inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
 #define WEDGE_IS_WHOLE_PATH true
 #endif
 
-/* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel +
-   pixel_count) of the crop, counted along its rows; with filters, to those of pixel_list, and no more than
-   sample_ends says. Both sample
-   numbers are multiples of WEDGE_SAMPLE_BATCH: sums are taken batch by batch, so that any split of the samples into
-   launches adds up alike. WEDGE_REPLAY: `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel
-   at a time. */
+/* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel
+   + pixel_count) of the crop, counted along its rows; with filters, to those of pixel_list, and no
+   more than sample_ends says. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH: sums are
+   taken batch by batch, so that any split of the samples into launches adds up alike. WEDGE_REPLAY:
+   `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel at a time. */
 __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCENE_PARAMS,
                           __global FilmPixel* restrict film, uint first_pixel, uint pixel_count,
                           uint first_sample,
@@ -295,17 +301,16 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const uint end = min(first_sample + sample_count, max(ends.x, ends.y));
     sample_count = end > first_sample ? end - first_sample : 0u;
     const uint halves = second_half(ends.x, (uint)filter_settings->probe_samples);
-    PixelSignals signals = {
-        all_surfaces + pixel * WEDGE_SURFACES,
-        all_sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2,
-        all_distances + pixel * WEDGE_SURFACES * WEDGE_SIGNALS,
-        all_reflected + pixel * WEDGE_SURFACES * WEDGE_SHADOW_LIGHTS,
-        all_unfiltered + pixel,
-        filter_settings->pixel_angle,
-        0,
-        probing,
-        0,
-        0};
+    PixelSignals signals = {all_surfaces + pixel * WEDGE_SURFACES,
+                            all_sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2,
+                            all_distances + pixel * WEDGE_SURFACES * WEDGE_SIGNALS,
+                            all_reflected + pixel * WEDGE_SURFACES * WEDGE_SHADOW_LIGHTS,
+                            all_unfiltered + pixel,
+                            filter_settings->pixel_angle,
+                            0,
+                            probing,
+                            0,
+                            0};
 #endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
@@ -321,9 +326,10 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
 #endif
             const float2 jitter = draw_2d(&sampler, WEDGE_DIMENSION_FILM);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
-            const PathResult r = trace_path(
-                &scene, params, ray, view_axis,
-                &sampler WEDGE_SIGNAL_ARGS WEDGE_IF_REPLAY(, record + (batch + i) * (uint)(params->bounces + 2)));
+            const PathResult r =
+                trace_path(&scene, params, ray, view_axis,
+                           &sampler WEDGE_SIGNAL_ARGS WEDGE_IF_REPLAY(
+                               , record + (batch + i) * (uint)(params->bounces + 2)));
             if (WEDGE_IS_WHOLE_PATH) add_sample(&sum, r.emission, r.direct, r.indirect, r.rays);
 #if WEDGE_SIGNALS > 0
             if (signals.camera_only)
