@@ -64,16 +64,19 @@ Curve make_curve(const Method& method, const SceneRuns& scene, const std::vector
         rung->errors.push_back(errors[i]);
     }
     std::vector<double> times, rays, rmse;
+    std::size_t plotted = 0;
     for (Rung& rung : curve.rungs) {
         take_spreads(rung);
         rung.is_plotted = rung.metrics[0].median >= kReferenceMargin * reference_rmse;
         if (!rung.is_plotted) continue;
+        ++plotted;
         for (std::size_t i = 0; i < rung.runs.size(); ++i) {
             times.push_back(rung.runs[i]->time_s);
             rays.push_back(double(rung.runs[i]->rays));
             rmse.push_back(kMetrics[0].value(rung.errors[i]));
         }
     }
+    if (plotted < 2) return curve;  // times that differ by chance are no slope
     curve.by_time = fit_power_law(times, rmse);
     curve.by_rays = fit_power_law(rays, rmse);
     return curve;

@@ -129,6 +129,7 @@ TEST_CASE("what_a_reference_cannot_judge_is_not_plotted") {
     REQUIRE(rungs.size() == 2);
     CHECK(rungs[0].is_plotted);
     CHECK_FALSE(rungs[1].is_plotted);
+    CHECK_FALSE(analysis.curves[0].by_time);
     const std::string charts = charts_section(analysis);
     CHECK(charts.find("4 spp, ") != std::string::npos);
     CHECK(charts.find("1024 spp, ") == std::string::npos);
