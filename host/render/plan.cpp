@@ -76,7 +76,8 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
         auto& defines = plan.path_program.defines;
         defines.push_back("WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights));
         if (plan.hemisphere) defines.push_back("WEDGE_FILTER_HEMISPHERE=1");
-        plan.filter_programs = {{"kernels/bandwidth.cl", defines},
+        plan.filter_programs = {{"kernels/distances.cl", defines},
+                                {"kernels/bandwidth.cl", defines},
                                 {"kernels/filter.cl", defines},
                                 {"kernels/guard.cl", {}}};
     }

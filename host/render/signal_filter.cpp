@@ -183,10 +183,11 @@ void SignalFilter::allocate_planes() {
 void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats) {
     Stopwatch watch;
     const auto programs = device::build_programs(device_, plan.filter_programs, kernel_dir);
-    const device::Program &bandwidth = programs[0], &filters = programs[1], &guard = programs[2];
-    surfaces_kernel_ = bandwidth.kernel("filter_surfaces");
-    distances_kernel_ = bandwidth.kernel("filter_distances");
-    neighbours_kernel_ = bandwidth.kernel("filter_neighbours");
+    const device::Program &distances = programs[0], &bandwidth = programs[1];
+    const device::Program &filters = programs[2], &guard = programs[3];
+    surfaces_kernel_ = distances.kernel("filter_surfaces");
+    distances_kernel_ = distances.kernel("filter_distances");
+    neighbours_kernel_ = distances.kernel("filter_neighbours");
     brightness_kernel_ = bandwidth.kernel("filter_brightness");
     bandwidth_kernel_ = bandwidth.kernel("filter_bandwidth");
     merge_kernel_ = bandwidth.kernel("filter_merge_halves");
