@@ -1,6 +1,10 @@
 #include "host/device/discovery.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sched.h>
+#endif
 
 #include <algorithm>
 #include <cctype>
@@ -20,11 +24,32 @@ namespace {
 
 constexpr cl_int kPlatformNotFound = -1001;  // CL_PLATFORM_NOT_FOUND_KHR, from cl_khr_icd
 
-/// PoCL's default way to run a work-group loses a factor of two on kernels whose items diverge, as
-/// rays do. It reads the choice once, so it must be there before the first OpenCL call.
+/// False, too, where it is not known.
+bool may_use_all_processors() {
+#ifdef __linux__
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 &&
+           CPU_COUNT(&allowed) == ::sysconf(_SC_NPROCESSORS_CONF);
+#else
+    return false;
+#endif
+}
+
+/// PoCL reads these once, so they must be there before the first OpenCL call.
+void prepare_pocl() {
+    // The default way to run a work-group loses a factor of two on kernels whose items diverge, as
+    // rays do.
+    ::setenv("POCL_WORK_GROUP_METHOD", "loops", /*overwrite=*/0);
+    // Threads that sleep between kernels may wake on one processor and share it for milliseconds.
+    // PoCL ties its n-th thread to processor n, whether the process may use that one or not.
+    if (may_use_all_processors() && !std::getenv("POCL_MAX_PTHREAD_COUNT"))
+        ::setenv("POCL_AFFINITY", "1", /*overwrite=*/0);
+}
+
 void prepare_environment() {
     static std::once_flag once;
-    std::call_once(once, [] { ::setenv("POCL_WORK_GROUP_METHOD", "loops", /*overwrite=*/0); });
+    std::call_once(once, prepare_pocl);
 }
 
 DeviceType type_of(cl_device_type type) {
