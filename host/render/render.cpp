@@ -76,8 +76,8 @@ void check_local_size(const device::Device& device, uint32_t local_size) {
 }
 
 /// Probe, measure, sample, filter (docs/method.md). Stopped early, it filters what there is.
-FilteredLight run_filtered(SamplingLoop& loop, SignalFilter& filter,
-                           const shared::FilterSettings& settings) {
+void run_filtered(SamplingLoop& loop, SignalFilter& filter,
+                  const shared::FilterSettings& settings) {
     const auto probes = uint32_t(settings.probe_samples);
     const uint64_t pixels = filter.pixel_count();
     // How many samples there will be is known only after the probe; until then progress guesses.
@@ -95,7 +95,6 @@ FilteredLight run_filtered(SamplingLoop& loop, SignalFilter& filter,
         }
     }
     loop.add_pass("filter", filter.filter());
-    return filter.read_light();
 }
 
 /// Puts filtered light in the place of what was not filtered, in sums over samples.
@@ -187,9 +186,14 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     const CpuStopwatch cpu_watch;
     FilteredLight filtered;
     frame.image = black_image(scene.film);
+    // For all methods alike, what is read back at the end is not rendering.
+    const auto note_times = [&] {
+        frame.stats.render_s = loop.elapsed_s();
+        frame.stats.render_cpu_s = cpu_watch.total();
+    };
     try {
         if (filter) {
-            filtered = run_filtered(loop, *filter, filter_settings);
+            run_filtered(loop, *filter, filter_settings);
         } else {
             const uint32_t samples = sample_count(scene, options);
             if (checkpoints) loop.keep(*checkpoints);
@@ -206,13 +210,14 @@ Frame render(const Scene& scene, const RenderOptions& options) {
                     break;
             }
         }
+        note_times();
+        if (filter) filtered = filter->read_light();
     } catch (const Error& error) {
         // What was traced before may still be there; only if it is not, nothing can be saved.
         if (error.kind() != ErrorKind::device || !loop.has_samples()) throw;
+        note_times();
         frame.stats.failure = error.what();
     }
-    frame.stats.render_s = loop.elapsed_s();
-    frame.stats.render_cpu_s = cpu_watch.total();
     std::vector<shared::FilmPixel> film = tracer.read_film();
     const std::vector<NamedChannel> layers = filter_layers(filtered, film);
     replace_unfiltered(film, filtered);
