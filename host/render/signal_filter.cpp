@@ -27,11 +27,11 @@ constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 12;       // of filter_y
 constexpr cl_uint kBrightnessArg = 13;  // of filter_bandwidth
 
-/// By the equations widths shrink with 1 / mu, and the samples a filter reaches stay as many: where
-/// mu asks for less error than the theory's, noise would not fall. With the square root, bias,
-/// which falls with the square of a width, falls as the noise that is aimed at does, with 1 / mu.
+/// By the equations widths go with 1 / mu, and the samples a filter reaches stay as many: noise
+/// would be the same for any mu, and bias, which goes with the square of a width, hopeless where mu
+/// is small. With the square root both go with 1 / mu, as the noise that is aimed at does.
 float narrowing(float mu) {
-    return mu > 1 ? std::sqrt(mu) : mu;
+    return std::sqrt(mu);
 }
 
 /// Of the guard. The narrower filters are than theory asks for, the less is their bias, and what

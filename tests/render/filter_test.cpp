@@ -138,6 +138,33 @@ TEST_CASE("filtered_indirect_light_needs_a_third_of_the_samples") {
     }
 }
 
+// Bias goes with the square of a width: with widths of 1 / mu, it would be far more than four times
+// as much. The errors of two seeds have only bias in common.
+TEST_CASE("bias_of_filtered_light_grows_as_mu_shrinks") {
+    const Scene scene = make_penumbra(LightProfile::gaussian);
+    const auto truth = channel_values(render(scene, quick(2048, 0, Sampler::sobol, 9)).image, "G");
+    const auto bias_with = [&](float mu) {
+        std::vector<double> images[2];
+        for (uint32_t seed : {0, 1}) {
+            RenderOptions options = filtered(mu, seed);
+            options.filter = FilterMode::plain;
+            options.adaptive = false;
+            options.samples_per_pixel = 64;
+            images[seed] = channel_values(render(scene, options).image, "G");
+        }
+        double sum = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            sum += (images[0][i] - truth[i]) * (images[1][i] - truth[i]);
+        return std::sqrt(std::max(sum, 0.0) / double(truth.size()));
+    };
+    const double wide = bias_with(0.25f), middle = bias_with(1);
+    CAPTURE(wide);
+    CAPTURE(middle);
+    CHECK(middle > 0);
+    CHECK(wide > 2 * middle);
+    CHECK(wide < 5 * middle);
+}
+
 // Where filters shrink as fast as samples grow, noise stays.
 TEST_CASE("noise_of_filtered_light_falls_beyond_mu_one") {
     Scene scene = make_room(0);
