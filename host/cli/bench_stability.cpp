@@ -50,7 +50,6 @@ converge::Config make_config(const StabilityArguments& a, stability::Suite& suit
     for (const std::string& text : a.budgets) converge::parse_budgets(text, config.budgets);
     if (a.seeds) config.seeds = *a.seeds;
     if (a.reference_spp) config.reference_spp = *a.reference_spp;
-    config.reference_sampler = Sampler::hash;
     config.folder = a.folder;
     config.references = a.references;
     config.device = a.device;
