@@ -5,6 +5,7 @@
      filter_merge_halves   the probe becomes a part of the first half, where more samples follow
    Arrays: include/wedge/shared/filter.h; places, found and sigmas in planes. */
 #include "lib/probe_planes.clh"
+#include "lib/rest_noise.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
@@ -147,22 +148,6 @@ inline float radiance_variance(__global const SurfaceSum* sum, __global const fl
 inline float noise_samples(float mu, float relative_variance, float pixels) {
     const float noise = WEDGE_NOISE / mu;
     return relative_variance / (fmax(pixels, 1.0f) * noise * noise);
-}
-
-/* Variance, from one sample to the next, of radiance that is not filtered: mean over 3x3 pixels. */
-inline float rest_variance(__global const HalfLight* unfiltered, int x, int y, int width,
-                           int height) {
-    float sum = 0.0f, count = 0.0f;
-    for (int j = max(y - 1, 0); j <= min(y + 1, height - 1); ++j)
-        for (int i = max(x - 1, 0); i <= min(x + 1, width - 1); ++i) {
-            __global const HalfLight* u = unfiltered + j * width + i;
-            const float n0 = u->direct[0].w, n1 = u->direct[1].w;
-            if (!(n0 > 0.0f && n1 > 0.0f)) continue;
-            const float d = u->indirect[0].w / n0 - u->indirect[1].w / n1;
-            sum += d * d / (1.0f / n0 + 1.0f / n1);
-            count += 1.0f;
-        }
-    return count > 0.0f ? sum / count : 0.0f;
 }
 
 /* Width of a signal's filter and how many samples it asks for; `bright`: square of what counts as

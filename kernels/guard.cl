@@ -14,6 +14,7 @@
      guard_smooth_x, guard_smooth_y   their means over neighbours
      guard_choose      the mixture of the least error */
 #include "lib/geometry.clh"
+#include "lib/rest_noise.clh"
 #include "wedge/shared/filter.h"
 
 inline float dot_rgb(float4 a, float4 b) {
@@ -169,8 +170,8 @@ __kernel void guard_choose(__constant FilterSettings* settings,
                            __global const HalfLight* restrict unfiltered,
                            __global const HalfLight* restrict light,
                            __global const FilterErrors* restrict errors,
-                           __global GuardedPixel* restrict guarded, uint count) {
-    const uint id = get_global_id(0);
+                           __global GuardedPixel* restrict guarded, int width, int height) {
+    const uint id = get_global_id(0), count = (uint)(width * height);
     if (id >= count) return;
     __global const HalfLight* u = unfiltered + id;
     const float n = fmax(u->direct[0].w + u->direct[1].w, 1.0f);
@@ -183,5 +184,7 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     g.indirect = choose_by_mode(settings, errors[id].indirect, light[id].indirect,
                                 WEDGE_STRIDE(count), (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
+    const int x = (int)id % width, y = (int)id / width;
+    g.error.z = rest_variance(unfiltered, x, y, width, height) / n;
     guarded[id] = g;
 }

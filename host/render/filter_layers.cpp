@@ -41,7 +41,8 @@ std::vector<NamedChannel> filter_layers(const FilteredLight& light,
     if (!light.indirect.width_px.empty())
         add("guard.indirect", [&](std::size_t i) { return light.guarded[i].indirect.w; });
     add("error", [&](std::size_t i) {
-        return std::sqrt(std::max(0.0f, light.guarded[i].error.x + light.guarded[i].error.y));
+        const shared::float4& square = light.guarded[i].error;
+        return std::sqrt(std::max(0.0f, square.x + square.y + square.z));
     });
     add("unfiltered.R", [&](std::size_t i) {
         return beauty(film[i].emission.x, film[i].direct.x, film[i].indirect.x, film[i]);

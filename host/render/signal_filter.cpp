@@ -230,7 +230,7 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, pixels);
     set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
     set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
-    set_kernel_args(choose_, settings_, unfiltered_, light_, errors_, guarded_, pixels);
+    set_kernel_args(choose_, settings_, unfiltered_, light_, errors_, guarded_, width, height);
 }
 
 double SignalFilter::run(std::span<const Launch> launches) {

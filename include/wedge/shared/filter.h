@@ -73,7 +73,8 @@ WEDGE_ASSERT_SIZE(FilterErrors, 64);
 typedef struct GuardedPixel {
     float4 direct;   /* rgb, w: width of the filter that was taken, as a share of the full one */
     float4 indirect; /* rgb, w: the same */
-    float4 error;    /* x, y: estimated mean square error of the two over rgb */
+    float4 error;    /* estimated mean square errors; x, y: of the two over rgb; z: of light not
+                        filtered */
 } GuardedPixel;
 WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 
