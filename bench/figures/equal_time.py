@@ -40,10 +40,10 @@ def rmse(image, reference):
 
 
 def render(program, scene, size, folder, *options):
-    """Layers and what --stats says; the second of two renders, for the first one compiles."""
+    """Layers and what --stats says; the second of two renders, for the first one compiles. size: None, the scene's."""
     out = f"{folder}/image.exr"
     for _ in range(2):
-        subprocess.run([program, "render", f"scenes/{scene}.json", "--size", size, "-o", out,
+        subprocess.run([program, "render", f"scenes/{scene}.json", *(["--size", size] if size else []), "-o", out,
                         "--stats", f"{folder}/stats.json", *options], check=True, capture_output=True)
     with open(f"{folder}/stats.json") as stats:
         return read(out), json.load(stats)
