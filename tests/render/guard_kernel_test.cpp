@@ -67,7 +67,8 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light) {
     launch("guard_errors", unfiltered, scales, errors, cl_uint(kPixels));
     launch("guard_smooth_x", errors, smoothed, cl_int(kSide), cl_int(kSide));
     launch("guard_smooth_y", smoothed, errors, cl_int(kSide), cl_int(kSide));
-    launch("guard_choose", settings_buffer, unfiltered, scales, errors, result, cl_uint(kPixels));
+    launch("guard_choose", settings_buffer, unfiltered, scales, errors, result, cl_int(kSide),
+           cl_int(kSide));
     device.download(result, guarded.data(), guarded.size() * sizeof(guarded[0]));
     return guarded;
 }
