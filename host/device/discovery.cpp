@@ -1,19 +1,15 @@
 #include "host/device/discovery.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-#ifdef __linux__
-#include <sched.h>
-#endif
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
-#include <mutex>
 #include <optional>
 
 #include "host/device/device.hpp"
+#include "host/device/pocl.hpp"
 #include "host/device/status.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
@@ -23,34 +19,6 @@ namespace device {
 namespace {
 
 constexpr cl_int kPlatformNotFound = -1001;  // CL_PLATFORM_NOT_FOUND_KHR, from cl_khr_icd
-
-/// False, too, where it is not known.
-bool may_use_all_processors() {
-#ifdef __linux__
-    cpu_set_t allowed;
-    CPU_ZERO(&allowed);
-    return ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 &&
-           CPU_COUNT(&allowed) == ::sysconf(_SC_NPROCESSORS_CONF);
-#else
-    return false;
-#endif
-}
-
-/// PoCL reads these once, so they must be there before the first OpenCL call.
-void prepare_pocl() {
-    // The default way to run a work-group loses a factor of two on kernels whose items diverge, as
-    // rays do.
-    ::setenv("POCL_WORK_GROUP_METHOD", "loops", /*overwrite=*/0);
-    // Threads that sleep between kernels may wake on one processor and share it for milliseconds.
-    // PoCL ties its n-th thread to processor n, whether the process may use that one or not.
-    if (may_use_all_processors() && !std::getenv("POCL_MAX_PTHREAD_COUNT"))
-        ::setenv("POCL_AFFINITY", "1", /*overwrite=*/0);
-}
-
-void prepare_environment() {
-    static std::once_flag once;
-    std::call_once(once, prepare_pocl);
-}
 
 DeviceType type_of(cl_device_type type) {
     if (type & CL_DEVICE_TYPE_GPU) return DeviceType::gpu;
@@ -114,7 +82,7 @@ std::optional<std::size_t> find_selected(std::span<const DeviceInfo> devices,
 }  // namespace
 
 std::vector<FoundDevice> find_devices() {
-    prepare_environment();
+    prepare_pocl();
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
