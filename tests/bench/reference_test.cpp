@@ -10,6 +10,7 @@
 #include "bench/converge/reference_margin.hpp"
 #include "bench/converge/report_sections.hpp"
 #include "bench/converge/runner.hpp"
+#include "bench/stability/suite.hpp"
 #include "tests/bench/temporary_folder.hpp"
 #include "wedge/image_io.hpp"
 
@@ -180,9 +181,16 @@ TEST_CASE("wanted_samples_bring_the_error_down_by_one_over_n") {
 }
 
 TEST_CASE("a_reference_shares_its_sampler_with_no_method") {
-    for (const wedge::converge::Method& method : all_methods()) {
-        CAPTURE(method.name);
-        if (!method.peer_script && !method.external_source)
-            CHECK(options_for(method, 1, 0).sampler != Config().reference_sampler);
+    const std::string bench = std::string(WEDGE_SOURCE_DIR) + "/bench/";
+    for (bool short_form : {false, true}) {
+        Config standard, suite;
+        read_config(bench + "standard.json", short_form, standard);
+        stability::read_suite(bench + "stability.json", short_form, suite);
+        for (const Config& config : {standard, suite})
+            for (const wedge::converge::Method& method : all_methods()) {
+                CAPTURE(method.name);
+                if (!method.peer_script && !method.external_source)
+                    CHECK(options_for(method, 1, 0).sampler != config.reference_sampler);
+            }
     }
 }
