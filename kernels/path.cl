@@ -315,16 +315,17 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
         for (uint i = 0; i < WEDGE_SAMPLE_BATCH && batch + i < sample_count; ++i) {
+            const uint sample = first_sample + batch + i;
             const Sampler sampler =
                 make_sampler(params->sampler, params->seed, params->log2_samples,
-                             (uint)params->strata, code, first_sample + batch + i);
+                             (uint)params->strata, code, sample);
 #if WEDGE_SIGNALS > 0
-            const uint index = first_sample + batch + i;
-            signals.camera_only = index >= ends.x;
-            signals.half_index = signals.camera_only ? index & 1u : index >= halves;
-            signals.probing_lights = probing && index < WEDGE_LIGHT_PROBES;
+            signals.camera_only = sample >= ends.x;
+            signals.half_index = signals.camera_only ? sample & 1u : sample >= halves;
+            signals.probing_lights = probing && sample < WEDGE_LIGHT_PROBES;
 #endif
-            const float2 jitter = draw_2d(&sampler, WEDGE_DIMENSION_FILM);
+            const float2 jitter =
+                draw_film(&sampler, params->seed, params->log2_samples, code, sample);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
             const PathResult r =
                 trace_path(&scene, params, ray, view_axis,

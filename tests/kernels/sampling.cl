@@ -8,8 +8,10 @@ __kernel void draw_points(int kind, uint seed, int log2_samples, uint strata, ui
                           uint dimension, uint count, __global float2* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    const Sampler s = make_sampler(kind, seed, log2_samples, strata, pixel, first_sample + id);
-    out[id] = draw_2d(&s, dimension);
+    const uint sample = first_sample + id;
+    const Sampler s = make_sampler(kind, seed, log2_samples, strata, pixel, sample);
+    out[id] = dimension == WEDGE_DIMENSION_FILM ? draw_film(&s, seed, log2_samples, pixel, sample)
+                                                : draw_2d(&s, dimension);
 }
 
 /* parameters: diffuse (grey), specular (grey), exponent, model; normal is +z. */

@@ -13,6 +13,8 @@ namespace {
 constexpr int kSamplers[] = {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_STRATIFIED,
                              WEDGE_SAMPLER_LATTICE};
 
+constexpr uint32_t kFilmDimension = 0;  // WEDGE_DIMENSION_FILM
+
 /// True if every box of 2^-a x 2^-(m - a) holds exactly one of the 2^m points, for all a: a (0, m,
 /// 2)-net.
 bool is_net(const std::vector<float2>& points, int m) {
@@ -63,6 +65,22 @@ TEST_CASE("doubling_stretches_are_nets") {
     CHECK(is_net(stretch(77, 0, 8), 3));
     // Stretches are scrambled independently: together, the first two are no net.
     CHECK_FALSE(is_net(stretch(77, 0, 16), 4));
+}
+
+TEST_CASE("places_in_a_pixel_are_of_one_sequence_however_many_they_become") {
+    SamplingKernels kernels;
+    const auto places = [&](uint32_t pixel, uint32_t first, uint32_t count) {
+        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, WEDGE_DOUBLING_FROM(2), pixel, first,
+                              kFilmDimension, count);
+    };
+    for (uint32_t pixel : {0u, 77u, 0xffffffffu})
+        for (int m : {2, 3, 4, 6}) {
+            CHECK(is_net(places(pixel, 0, 1u << m), m));
+            CHECK(is_net(places(pixel, 1u << m, 1u << m), m));  // the second half alone
+        }
+    // Neighbours look at places of their own.
+    CHECK(places(77, 0, 1)[0].x != places(78, 0, 1)[0].x);
+    CHECK(places(0, 0, 1)[0].x != places(0x80000000u, 0, 1)[0].x);
 }
 
 TEST_CASE("sobol_points_of_neighbouring_pixels_are_a_net_together") {
