@@ -89,7 +89,7 @@ TEST_CASE("frames_leave_memory_and_handles_as_they_were") {
         "after {} frames and after {}: {:.2f} and {:.2f} MiB allocated, {:.1f} and {:.1f} resident",
         kWarm, frames, allocated / 1048576, (allocated + kept) / 1048576, memory / 1048576,
         (memory + growth) / 1048576));
-    // What is handed out repeats to a few hundredths of a per cent. Which pages stay resident also
+    // What is handed out repeats to a few tenths of a per cent. Which pages stay resident also
     // depends on which thread's heap an allocation fell into, several per cent from run to run
     // however many frames there are, so that limit only sees mappings beside the allocator's.
     CHECK(kept <= 0.01 * allocated);
