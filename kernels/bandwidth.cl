@@ -1,8 +1,8 @@
-/* Frequency analysis, between the probe and the adaptive samples (path.cl), from what distances.cl
+/* Frequency analysis, between samples so far and those to come (path.cl), from what distances.cl
    has found:
      filter_brightness  sums over rows of the image so far
      filter_bandwidth   widths of filters and numbers of samples
-     filter_merge_halves   the probe becomes a part of the first half, where more samples follow
+     filter_merge_halves   samples so far become a part of the first half, where more follow
    Arrays: include/wedge/shared/filter.h; places, found and sigmas in planes. */
 #include "lib/probe_planes.clh"
 #include "lib/rest_noise.clh"
@@ -171,14 +171,14 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
 }
 
 /* near_by, ends: of filter_neighbours in distances.cl. sigmas: world units, 0 where nothing is to
-   be filtered. sample_ends: x, samples each pixel is brought to, powers of two, which the sampler
-   likes best; y: camera rays. */
+   be filtered. sample_ends: paths a pixel is brought to are a power of two, which the sampler likes
+   best; what it has already stays. */
 __kernel void filter_bandwidth(
     __constant FilterSettings* settings, __global const Light* restrict lights,
     __global const FilmPixel* restrict film, __global const SurfaceSum* restrict surface_sums,
     __global const float* restrict places, __global const float* restrict near_by,
     __global const float* restrict ends, __global const float4* restrict reflected,
-    __global float* restrict sigmas, __global uint2* restrict sample_ends,
+    __global float* restrict sigmas, __global SampleEnds* restrict sample_ends,
     __global const HalfLight* restrict unfiltered, int width, int height, float mean_brightness) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
@@ -214,22 +214,29 @@ __kernel void filter_bandwidth(
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
     const float least = (float)settings->least_samples;
     const float power = nearest_power_of_two(clamp(samples, probes, cap));
-    const uint end = (uint)clamp(power, least, cap);
+    const SampleEnds before = sample_ends[pixel];
+    const uint end = max((uint)clamp(power, least, cap), before.paths);
     const bool is_edge =
         surface_sums[pixel * WEDGE_SURFACES].position.w != film[pixel].normal.w || ends[at] > 0.0f;
     const float contrast = edge_contrast(film, is_edge, x, y, width, height);
-    sample_ends[pixel] = (uint2)(end, max(end, camera_rays(settings, contrast, mean_brightness)));
+    const uint rays = camera_rays(settings, contrast, mean_brightness);
+    sample_ends[pixel].paths = end;
+    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays), rays);
+    sample_ends[pixel].paths_before = before.paths;
+    sample_ends[pixel].camera_rays_before = before.camera_rays;
 }
 
-/* Once it is known that a pixel goes on, all it has so far is its first half. */
+/* Once it is known that a pixel goes on, all it has so far belongs to its first half. */
 __kernel void filter_merge_halves(__constant FilterSettings* settings,
-                                  __global const uint2* restrict sample_ends,
+                                  __global const SampleEnds* restrict sample_ends,
                                   __global float4* restrict sums,
                                   __global HalfLight* restrict unfiltered, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     const uint probes = (uint)settings->probe_samples;
-    if (second_half(sample_ends[id].x, probes) < probes) return;
+    const SampleEnds ends = sample_ends[id];
+    if (ends.paths == ends.paths_before ||
+        second_half(ends.paths, probes) < ends.paths_before) return;
     __global float4* s = sums + id * WEDGE_SURFACES * WEDGE_SIGNALS * 2;
     for (int i = 0; i < WEDGE_SURFACES * WEDGE_SIGNALS; ++i) {
         s[2 * i] += s[2 * i + 1];

@@ -60,7 +60,6 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
 }
 
 /* Mean of `errors` over a stretch of WEDGE_GUARD_SIDE pixels, as far as they are on the film. */
-#define WEDGE_GUARD_RADIUS 5
 #define WEDGE_GUARD_SIDE (2.0f * WEDGE_GUARD_RADIUS + 1.0f)
 
 inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,

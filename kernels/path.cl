@@ -269,13 +269,15 @@ inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
 }
 
 #define WEDGE_IS_WHOLE_PATH (!signals.camera_only)
+#define WEDGE_IS_NEW_RAY (!signals.known)
 #else
 #define WEDGE_IS_WHOLE_PATH true
+#define WEDGE_IS_NEW_RAY true
 #endif
 
 /* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel
-   + pixel_count) of the crop, counted along its rows; with filters, to those of pixel_list, and no
-   more than sample_ends says. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH: sums are
+   + pixel_count) of the crop, counted along its rows; with filters, to those of pixel_list, and what
+   sample_ends says they lack. Both sample numbers are multiples of WEDGE_SAMPLE_BATCH: sums are
    taken batch by batch, so that any split of the samples into launches adds up alike. WEDGE_REPLAY:
    `record` takes (bounces + 2) vertices a sample, zeroed before; one pixel at a time. */
 __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCENE_PARAMS,
@@ -297,10 +299,10 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const uint code = morton_code(x, y);
 
 #if WEDGE_SIGNALS > 0
-    const uint2 ends = sample_ends[pixel]; /* of whole paths, of camera rays */
-    const uint end = min(first_sample + sample_count, max(ends.x, ends.y));
+    const SampleEnds ends = sample_ends[pixel];
+    const uint end = min(first_sample + sample_count, max(ends.paths, ends.camera_rays));
     sample_count = end > first_sample ? end - first_sample : 0u;
-    const uint halves = second_half(ends.x, (uint)filter_settings->probe_samples);
+    const uint halves = second_half(ends.paths, (uint)filter_settings->probe_samples);
     PixelSignals signals = {all_surfaces + pixel * WEDGE_SURFACES,
                             all_sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2,
                             all_distances + pixel * WEDGE_SURFACES * WEDGE_SIGNALS,
@@ -310,17 +312,22 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                             0,
                             probing,
                             0,
+                            0,
                             0};
 #endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
         for (uint i = 0; i < WEDGE_SAMPLE_BATCH && batch + i < sample_count; ++i) {
             const uint sample = first_sample + batch + i;
+#if WEDGE_SIGNALS > 0
+            signals.camera_only = sample >= ends.paths;
+            signals.known = sample < ends.camera_rays_before;
+            if (signals.camera_only ? signals.known : sample < ends.paths_before) continue;
+#endif
             const Sampler sampler =
                 make_sampler(params->sampler, params->seed, params->log2_samples,
                              (uint)params->strata, code, sample);
 #if WEDGE_SIGNALS > 0
-            signals.camera_only = sample >= ends.x;
             signals.half_index = signals.camera_only ? sample & 1u : sample >= halves;
             signals.probing_lights = probing && sample < WEDGE_LIGHT_PROBES;
 #endif
@@ -331,14 +338,17 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                 trace_path(&scene, params, ray, view_axis,
                            &sampler WEDGE_SIGNAL_ARGS WEDGE_IF_REPLAY(
                                , record + (batch + i) * (uint)(params->bounces + 2)));
-            if (WEDGE_IS_WHOLE_PATH) add_sample(&sum, r.emission, r.direct, r.indirect, r.rays);
+            if (WEDGE_IS_WHOLE_PATH)
+                add_sample(&sum, r.emission, r.direct, r.indirect, r.rays,
+                           WEDGE_IS_NEW_RAY ? 1.0f : 0.0f);
 #if WEDGE_SIGNALS > 0
             if (signals.camera_only)
                 add_camera_sample(&sum, r.emission, r.rays);
             else
                 add_unfiltered(&signals, &r);
 #endif
-            add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
+            if (WEDGE_IS_NEW_RAY)
+                add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
         }
         film[pixel] = sum_film_pixels(film[pixel], sum);
     }

@@ -149,8 +149,8 @@ std::string render_arguments(const RenderOptions& options) {
                                    to_string(options.sampler), options.seed);
     if (options.samples_per_pixel) text += fmt::format(" --spp {}", *options.samples_per_pixel);
     if (options.method == wedge::Method::aaf)
-        text += fmt::format(" --mu {:g} --filter {}{}", options.mu, to_string(options.filter),
-                            options.adaptive ? "" : " --uniform");
+        text += fmt::format(" --mu {:g} --filter {}{}", options.mu.value_or(kDefaultMu),
+                            to_string(options.filter), options.adaptive ? "" : " --uniform");
     return text;
 }
 

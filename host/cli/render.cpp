@@ -172,18 +172,20 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--crop", a.crop,
                        "Render X,Y,WIDTH,HEIGHT in px only, the rest stays 0; default: all");
     command.add_option("--time", a.time_s,
-                       "End after this many seconds, or at --spp, whichever is first; default: no "
-                       "limit");
+                       "End after this many seconds, or where --spp or --mu ends it, whichever is "
+                       "first; default: no limit");
     command.add_option("--target-error", a.target_error,
-                       "Go on until the estimated error is this small (method mc), or until --spp "
-                       "or --time; default: none");
+                       "Go on until the estimated error is this small, or until --spp, --mu or "
+                       "--time; default: none");
     command.add_option("--target-metric", a.target_metric,
                        "What --target-error is: relmse or rmse; default: relmse");
     command.add_option("--seed", a.seed, "Seed of all random numbers, 0 to 2^64 - 1; default: 0");
-    command.add_option("--method", a.method,
-                       "mc or aaf; default: aaf, but mc with --time, --target-error, --resume, "
-                       "--sample-offset and --pixel");
-    command.add_option("--mu", a.mu, "aaf: bandwidth scale, samples against bias; default: 1");
+    command.add_option(
+        "--method", a.method,
+        "mc or aaf; default: aaf, but mc with --resume, --sample-offset and --pixel");
+    command.add_option("--mu", a.mu,
+                       "aaf: bandwidth scale, samples against bias; default: 1, with --time and "
+                       "--target-error as high as they need");
     command.add_option("--filter", a.filter,
                        "aaf: guarded, plain (as in the papers) or none; default: guarded");
     command.add_flag("--uniform", a.uniform,

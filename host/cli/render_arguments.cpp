@@ -76,12 +76,10 @@ Method parse_method(const std::string& name) {
     refuse("--method " + name + ": no such method; known: mc, aaf");
 }
 
-/// The one that was asked for; else filtering, but for what only plain Monte Carlo can do, or does
-/// as is meant: filtering uses no more time than its samples take.
+/// The one that was asked for; else filtering, but for what only plain Monte Carlo can do.
 Method choose_method(const RenderArguments& a) {
     if (!a.method.empty()) return parse_method(a.method);
-    const bool only_mc = a.time_s || a.target_error || !a.resume_file.empty() ||
-                         a.sample_offset > 0 || !a.pixel.empty();
+    const bool only_mc = !a.resume_file.empty() || a.sample_offset > 0 || !a.pixel.empty();
     return only_mc ? Method::mc : Method::aaf;
 }
 
@@ -148,7 +146,8 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.sampler = parse_sampler(arguments.sampler, "--sampler");
     job.options.bvh = parse_bvh(arguments);
     job.options.method = choose_method(arguments);
-    if (!(arguments.mu > 0)) refuse(fmt::format("--mu {}: must be positive", arguments.mu));
+    if (arguments.mu && !(*arguments.mu > 0))
+        refuse(fmt::format("--mu {}: must be positive", *arguments.mu));
     job.options.mu = arguments.mu;
     job.options.filter = parse_filter(arguments.filter);
     job.options.adaptive = !arguments.uniform;
@@ -158,8 +157,9 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.estimate_error = true;
     job.options.target_error = arguments.target_error;
     job.options.target_metric = parse_metric(arguments.target_metric);
-    if (arguments.target_error && job.options.method != Method::mc)
-        refuse("--target-error: needs --method mc; with aaf a larger --mu gives less error");
+    if (arguments.target_error && arguments.uniform && job.options.method == Method::aaf)
+        refuse(
+            "--target-error: needs samples that differ from pixel to pixel; leave out --uniform");
     if (arguments.target_error && !arguments.resume_file.empty())
         refuse("--target-error: such a render cannot be resumed; give --spp instead");
     job.options.resume_file = arguments.resume_file;

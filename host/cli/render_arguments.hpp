@@ -21,7 +21,7 @@ struct RenderArguments {
     std::string size, crop, pixel;
     std::string sampler = "sobol", method, filter = "guarded", integrator = "path";
     bool uniform = false;
-    float mu = 1;
+    std::optional<float> mu;
     std::string bvh = "auto", bvh_quality = "medium";
     std::string stats_file;
     std::optional<float> exposure;

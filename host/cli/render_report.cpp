@@ -46,9 +46,9 @@ void report(const RenderStats& stats, const Scene& scene, const RenderOptions& o
     say(fmt::format("  {} rays, {} rays/s; {} triangles, {} on the device",
                     text_of_count(double(stats.rays)), text_of_count(rate),
                     text_of_number(stats.triangles), text_of_bytes(stats.device_bytes)));
+    if (stats.mu > 0) say(fmt::format("  filtered with mu {:.3g}", stats.mu));
     if (const auto& error = stats.estimated_error)
-        say(fmt::format("  estimated error{}: RMSE {:.3g}, relMSE {:.3g}",
-                        options.method == Method::aaf ? " of the filtered light" : "", error->rmse,
+        say(fmt::format("  estimated error: RMSE {:.3g}, relMSE {:.3g}", error->rmse,
                         error->rel_mse));
     say(fmt::format(
         "  scene {}, BVH {}, upload {}, kernels {} ({} given to the driver, {} from cache), render "

@@ -92,19 +92,20 @@ double ErrorEstimate::samples_for(double target, ErrorMetric metric) const {
     return samples_ * std::pow(level(which) / wanted, 1 / rate(which));
 }
 
-std::optional<EstimatedError> estimate_from_layer(const Image& image) {
-    const int error = image.channel("error");
-    if (error < 0) return {};
-    const int rgb[3] = {image.channel("R"), image.channel("G"), image.channel("B")};
-    const std::size_t stride = image.channels.size(), pixels = image.pixels.size() / stride;
-    double squares = 0, relative = 0;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const float* pixel = &image.pixels[i * stride];
-        const double square = double(pixel[error]) * pixel[error];
-        squares += square;
-        for (int c : rgb) relative += square * weight_of(pixel[c]) / 3;
+EstimatedError estimate_of_filtered(std::span<const shared::FilmPixel> film,
+                                    std::span<const Vec3> squares) {
+    EstimatedError sum;
+    std::vector<float> means;
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+        means.clear();
+        add_means(film[i], means);
+        for (int c = 0; c < 3; ++c) {
+            sum.rmse += double(squares[i][c]);
+            sum.rel_mse += double(squares[i][c]) * weight_of(means[std::size_t(c)]);
+        }
     }
-    return EstimatedError{std::sqrt(squares / double(pixels)), relative / double(pixels)};
+    const double share = squares.empty() ? 0 : 1 / (3 * double(squares.size()));
+    return {std::sqrt(sum.rmse * share), sum.rel_mse * share};
 }
 
 }  // namespace wedge::rendering

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "wedge/image.hpp"
+#include "wedge/math.hpp"
 #include "wedge/render.hpp"
 #include "wedge/shared/frame.h"
 
@@ -48,8 +48,9 @@ class ErrorEstimate {
     std::vector<Change> changes_;
 };
 
-/// Of a filtered image: from its layer `error`, which tells of the light that is filtered. Nothing
-/// if there is no such layer.
-std::optional<EstimatedError> estimate_from_layer(const Image& image);
+/// Of a filtered image, from the mean square errors of its pixels (told_error.hpp). `film` has the
+/// filtered light in its place.
+EstimatedError estimate_of_filtered(std::span<const shared::FilmPixel> film,
+                                    std::span<const Vec3> squares);
 
 }  // namespace wedge::rendering

@@ -110,7 +110,7 @@ std::string explain(const Scene& scene, const RenderOptions& options) {
     const Plan plan = make_plan(scene, options.method, settings.bounces);
     std::string text =
         options.method == Method::aaf
-            ? fmt::format("method: aaf, mu {:g}{}\n", options.mu,
+            ? fmt::format("method: aaf, mu {:g}{}\n", options.mu.value_or(kDefaultMu),
                           plan.signals > 0 ? "" : "; nothing to filter, so plain Monte Carlo")
             : std::string("method: mc, plain Monte Carlo\n");
     text += "effects\n" + table(effects(scene, plan, settings.bounces));

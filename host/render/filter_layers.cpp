@@ -20,7 +20,8 @@ float beauty(float emission, float direct, float indirect, const shared::FilmPix
 }  // namespace
 
 std::vector<NamedChannel> filter_layers(const FilteredLight& light,
-                                        const std::vector<shared::FilmPixel>& film) {
+                                        const std::vector<shared::FilmPixel>& film,
+                                        std::span<const Vec3> errors) {
     std::vector<NamedChannel> channels;
     const std::size_t n = light.guarded.size();
     if (n == 0) return channels;
@@ -40,10 +41,8 @@ std::vector<NamedChannel> filter_layers(const FilteredLight& light,
         add("guard.direct", [&](std::size_t i) { return light.guarded[i].direct.w; });
     if (!light.indirect.width_px.empty())
         add("guard.indirect", [&](std::size_t i) { return light.guarded[i].indirect.w; });
-    add("error", [&](std::size_t i) {
-        const shared::float4& square = light.guarded[i].error;
-        return std::sqrt(std::max(0.0f, square.x + square.y + square.z));
-    });
+    add("error",
+        [&](std::size_t i) { return std::sqrt((errors[i].x + errors[i].y + errors[i].z) / 3); });
     add("unfiltered.R", [&](std::size_t i) {
         return beauty(film[i].emission.x, film[i].direct.x, film[i].indirect.x, film[i]);
     });

@@ -11,11 +11,13 @@
 #include "host/render/error_estimate.hpp"
 #include "host/render/film_image.hpp"
 #include "host/render/filter_layers.hpp"
+#include "host/render/filtered_run.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/progressive.hpp"
 #include "host/render/render_settings.hpp"
 #include "host/render/sampling_loop.hpp"
 #include "host/render/signal_filter.hpp"
+#include "host/render/told_error.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
 
@@ -54,7 +56,7 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:driver"] = stats.device.driver;
     m["wedge:version"] = version();
     m["wedge:method"] = options.method == Method::aaf ? "aaf" : "mc";
-    if (options.method == Method::aaf) m["wedge:mu"] = fmt::format("{:g}", options.mu);
+    if (stats.mu > 0) m["wedge:mu"] = fmt::format("{:g}", stats.mu);
     if (options.method == Method::aaf) {
         m["wedge:filter"] = to_string(options.filter);
         m["wedge:adaptive"] = options.adaptive ? "yes" : "no";
@@ -73,43 +75,6 @@ void check_local_size(const device::Device& device, uint32_t local_size) {
     if (local_size > largest)
         throw Error(ErrorKind::usage, fmt::format("the local size must be at most {} on {}, got {}",
                                                   largest, device.info().name, local_size));
-}
-
-/// Probe, measure, sample, filter (docs/method.md). Stopped early, it filters what there is.
-void run_filtered(SamplingLoop& loop, SignalFilter& filter,
-                  const shared::FilterSettings& settings) {
-    const auto probes = uint32_t(settings.probe_samples);
-    const uint64_t pixels = filter.pixel_count();
-    // How many samples there will be is known only after the probe; until then progress guesses.
-    const bool goes_on = loop.run("probe", 0, probes, 4 * probes * pixels, true);
-    loop.add_pass("bandwidth", filter.measure_bandwidth(goes_on));
-    if (goes_on) {
-        const std::vector<SampleEnds> ends = filter.read_sample_ends();
-        uint64_t total = 0;
-        for (const SampleEnds& end : ends) total += std::max(end.paths, end.camera_rays);
-        for (const Stage& stage : cut_into_stages(ends, probes)) {
-            filter.write_pixel_list(stage.pixels);
-            if (!loop.run("adaptive", stage.first, stage.end, total, false,
-                          uint32_t(stage.pixels.size())))
-                break;
-        }
-    }
-    loop.add_pass("filter", filter.filter());
-}
-
-/// Puts filtered light in the place of what was not filtered, in sums over samples.
-void replace_unfiltered(std::vector<shared::FilmPixel>& film, const FilteredLight& light) {
-    const auto replace = [](shared::float4& sum, const shared::float4* before,
-                            const shared::float4& after, float samples) {
-        sum.x += after.x * samples - (before[0].x + before[1].x);
-        sum.y += after.y * samples - (before[0].y + before[1].y);
-        sum.z += after.z * samples - (before[0].z + before[1].z);
-    };
-    for (std::size_t i = 0; i < light.guarded.size(); ++i) {
-        const float samples = film[i].direct.w;
-        replace(film[i].direct, light.unfiltered[i].direct, light.guarded[i].direct, samples);
-        replace(film[i].indirect, light.unfiltered[i].indirect, light.guarded[i].indirect, samples);
-    }
 }
 
 /// Takes the pixels of a band that is done into the image.
@@ -175,10 +140,10 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     settings.crop = bands[0];
     PathTracer tracer(device, scene, settings, plan, frame.stats);
     std::optional<SignalFilter> filter;
-    const shared::FilterSettings filter_settings = make_filter_settings(scene, options);
     if (plan.signals > 0)
-        filter.emplace(device, tracer, plan, settings.crop, filter_settings, settings.kernel_dir,
-                       frame.stats);
+        filter.emplace(device, tracer, plan, settings.crop,
+                       make_filter_settings(scene, options, options.mu.value_or(kDefaultMu)),
+                       settings.kernel_dir, frame.stats);
     std::optional<Checkpoints> checkpoints;
     if (!options.resume_file.empty())
         checkpoints.emplace(scene, options, settings, frame.stats, tracer);
@@ -193,7 +158,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     };
     try {
         if (filter) {
-            run_filtered(loop, *filter, filter_settings);
+            run_filtered(scene, options, loop, tracer, *filter, frame.stats);
         } else {
             const uint32_t samples = sample_count(scene, options);
             if (checkpoints) loop.keep(*checkpoints);
@@ -211,7 +176,10 @@ Frame render(const Scene& scene, const RenderOptions& options) {
             }
         }
         note_times();
-        if (filter) filtered = filter->read_light();
+        if (filter) {
+            filtered = filter->read_light();
+            filter->read_layers(filtered);
+        }
     } catch (const Error& error) {
         // What was traced before may still be there; only if it is not, nothing can be saved.
         if (error.kind() != ErrorKind::device || !loop.has_samples()) throw;
@@ -219,12 +187,14 @@ Frame render(const Scene& scene, const RenderOptions& options) {
         frame.stats.failure = error.what();
     }
     std::vector<shared::FilmPixel> film = tracer.read_film();
-    const std::vector<NamedChannel> layers = filter_layers(filtered, film);
+    const std::vector<Vec3> errors =
+        told_errors(filtered.guarded, std::size_t(tracer.crop().width));
+    const std::vector<NamedChannel> layers = filter_layers(filtered, film, errors);
     replace_unfiltered(film, filtered);
+    if (!errors.empty()) frame.stats.estimated_error = estimate_of_filtered(film, errors);
     count_film(film, tracer.crop(), options.seed, frame.stats);
     write_film(film, tracer.crop(), frame.image);
     add_channels(frame.image, layers, tracer.crop());
-    if (filter) frame.stats.estimated_error = estimate_from_layer(frame.image);
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

@@ -46,10 +46,8 @@ Rect checked_crop(const Film& film, const std::optional<Rect>& crop) {
 void check_target(const RenderOptions& options) {
     if (!(*options.target_error > 0) || !std::isfinite(*options.target_error))
         refuse(fmt::format("the target error must be positive, got {}", *options.target_error));
-    if (options.method != Method::mc)
-        refuse(
-            "a target error needs the method mc: aaf decides its samples after its probe; raise mu "
-            "for less error");
+    if (options.method == Method::aaf && !options.adaptive)
+        refuse("a target error needs samples that may differ from pixel to pixel");
     if (!options.resume_file.empty())
         refuse("a render with a target error cannot be resumed: give the number of samples");
 }
@@ -85,8 +83,8 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     if (samples > kMaxSamples - std::min(options.sample_offset, kMaxSamples))
         refuse(fmt::format("sample offset and samples together must be at most {}", kMaxSamples));
     if (options.method == Method::aaf) {
-        if (!(options.mu > 0) || !std::isfinite(options.mu))
-            refuse(fmt::format("mu must be positive, got {}", options.mu));
+        if (options.mu && (!(*options.mu > 0) || !std::isfinite(*options.mu)))
+            refuse(fmt::format("mu must be positive, got {}", *options.mu));
         if (options.sample_offset != 0)
             refuse("the method aaf decides its samples itself: no sample offset");
     }
@@ -99,7 +97,8 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
         open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
     // Where nothing is filtered there are no halves, and all pixels get the same samples.
     if (make_plan(scene, options.method, settings.bounces).signals > 0) {
-        const auto probes = uint32_t(make_filter_settings(scene, options).probe_samples);
+        const auto probes =
+            uint32_t(make_filter_settings(scene, options, kDefaultMu).probe_samples);
         settings.log2_samples = WEDGE_DOUBLING_FROM(std::max(int(std::bit_width(probes)) - 2, 1));
     }
     settings.strata = open_ended ? kOpenEndedStrata : int(samples);

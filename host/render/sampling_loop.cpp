@@ -15,12 +15,21 @@ bool SamplingLoop::must_stop(bool at_pass_end) {
            watch_.total() >= *options_.time_limit_s;
 }
 
+void SamplingLoop::add_pass(const char* name, double device_s, uint64_t launches) {
+    auto& passes = stats_.passes;
+    auto pass = std::find_if(passes.begin(), passes.end(),
+                             [&](const PassStats& p) { return p.name == name; });
+    if (pass == passes.end()) pass = passes.insert(pass, {name, 0, 0});
+    pass->device_s += device_s;
+    pass->launches += launches;
+}
+
 bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing,
                        std::optional<uint32_t> pixels) {
     Schedule schedule(pixels.value_or(tracer_.pixel_count()), first, end - first,
                       options_.tile_pixels);
     if (checkpoints_) done_ += checkpoints_->begin(schedule, first);
-    PassStats pass{name, 0, 0};
+    PassStats pass;
     bool stopped = false;
     while (!(stopped = must_stop(schedule.at_pass_end()))) {
         std::optional<Work> work = schedule.next();
@@ -36,11 +45,7 @@ bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t 
             options_.on_progress({std::min(done_, total), total, watch_.total()});
     }
     if (checkpoints_) checkpoints_->save(schedule.position());
-    // Bands of a film are one pass.
-    if (stats_.passes.empty() || stats_.passes.back().name != pass.name)
-        stats_.passes.push_back({name, 0, 0});
-    stats_.passes.back().device_s += pass.device_s;
-    stats_.passes.back().launches += pass.launches;
+    add_pass(name, pass.device_s, pass.launches);
     return !stopped;
 }
 

@@ -24,10 +24,8 @@ class SamplingLoop {
     bool run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing = false,
              std::optional<uint32_t> pixels = {});
 
-    /// Adds the time of a pass that was run otherwise.
-    void add_pass(const char* name, double device_s) {
-        stats_.passes.push_back({name, device_s, 1});
-    }
+    /// Adds to the statistics of the pass of that name; bands of a film, or rounds, are one.
+    void add_pass(const char* name, double device_s, uint64_t launches = 1);
 
     bool has_samples() const { return done_ > 0; }
     uint64_t samples_done() const { return done_; }  ///< pixel samples

@@ -16,8 +16,7 @@ constexpr int kProbeSamples = 16, kShadowProbeSamples = WEDGE_LIGHT_PROBES;
 constexpr float kAlphaDirect = 1;       // section 3.6
 constexpr float kAlphaIndirect = 0.3f;  // section 4.5
 constexpr float kGaussian = 3;          // k of eq. 3.13
-constexpr float kUniform = 4.5;       // flat lights have side lobes; the thesis takes mu = 3 for 2
-constexpr float kSamplesPerMu = 100;  // the cap
+constexpr float kUniform = 4.5;  // flat lights have side lobes; the thesis takes mu = 3 for 2
 // Camera rays of a pixel with an edge as high as the image is bright: they are cheaper the longer
 // paths are.
 constexpr int kCameraRaysWithBounces = 256, kCameraRaysAlone = 64;
@@ -76,10 +75,11 @@ int probe_samples(const Scene& scene, int bounces) {
     return has_hemisphere_light(scene, bounces) ? kProbeSamples : kShadowProbeSamples;
 }
 
-shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options) {
+shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options,
+                                            float mu) {
     shared::FilterSettings s{};
-    s.mu = options.mu;
-    s.narrowing = narrowing(options.mu);
+    s.mu = mu;
+    s.narrowing = narrowing(mu);
     s.alpha_direct = kAlphaDirect;
     s.alpha_indirect = kAlphaIndirect;
     s.k_gaussian = kGaussian;
@@ -99,11 +99,15 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     return s;
 }
 
+bool goes_in_rounds(const RenderOptions& options) {
+    return (options.time_limit_s || options.target_error) && options.adaptive;
+}
+
 std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
     if (plan.signals == 0) return {};
     const uint64_t surfaces = pixels * WEDGE_SURFACES, entries = surfaces * uint64_t(plan.signals);
     return {
-        {"sample counts", pixels * (sizeof(SampleEnds) + sizeof(cl_uint))},
+        {"sample counts", pixels * (sizeof(shared::SampleEnds) + sizeof(cl_uint))},
         {"surfaces of pixels",
          surfaces * (sizeof(shared::SurfaceSum) + WEDGE_PLACE_PLANES * sizeof(float))},
         {"signals, sampled", entries * 2 * sizeof(shared::float4)},
@@ -147,7 +151,8 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     };
     settings_ = device_.upload_bytes(&settings, sizeof(settings), "filter settings");
     const auto probes = cl_uint(settings.probe_samples);
-    sample_ends_ = upload(std::vector<SampleEnds>(pixels, {probes, probes}), "sample counts");
+    sample_ends_ =
+        upload(std::vector<shared::SampleEnds>(pixels, {probes, probes, 0, 0}), "sample counts");
     std::vector<uint32_t> all(pixels);
     std::iota(all.begin(), all.end(), 0u);
     pixel_list_ = upload(all, "list of pixels");
@@ -242,6 +247,10 @@ double SignalFilter::run(std::span<const Launch> launches) {
     return seconds;
 }
 
+void SignalFilter::set_settings(const shared::FilterSettings& settings) {
+    device_.overwrite(settings_, &settings, sizeof(settings));
+}
+
 double SignalFilter::measure_bandwidth(bool goes_on) {
     const uint64_t pixels = pixel_count();
     const Launch measured[] = {{surfaces_kernel_, pixels},
@@ -281,20 +290,23 @@ double SignalFilter::filter() {
     return seconds + run(guard);
 }
 
-std::vector<SampleEnds> SignalFilter::read_sample_ends() {
-    return read<SampleEnds>(device_, sample_ends_, pixel_count());
+std::vector<shared::SampleEnds> SignalFilter::read_sample_ends() {
+    return read<shared::SampleEnds>(device_, sample_ends_, pixel_count());
 }
 
 FilteredLight SignalFilter::read_light() {
     FilteredLight light;
     light.guarded = read<shared::GuardedPixel>(device_, guarded_, pixel_count());
     light.unfiltered = read<shared::HalfLight>(device_, unfiltered_, pixel_count());
-    if (lights_ > 0) light.direct = read_layers(0);
-    if (signals_ > lights_) light.indirect = read_layers(lights_);
     return light;
 }
 
-SignalLayers SignalFilter::read_layers(uint32_t signal) {
+void SignalFilter::read_layers(FilteredLight& light) {
+    if (lights_ > 0) light.direct = read_signal(0);
+    if (signals_ > lights_) light.indirect = read_signal(lights_);
+}
+
+SignalLayers SignalFilter::read_signal(uint32_t signal) {
     const std::size_t pixels = pixel_count(), pitch = WEDGE_PLANE_PITCH(width_);
     const auto planes = [&](const cl::Buffer& buffer, std::size_t count) {
         return read<float>(device_, buffer, WEDGE_PLANE_MARGIN + count * plane_size());

@@ -10,11 +10,18 @@
 
 namespace wedge::rendering {
 
+/// The most that a pixel gets, for each of mu.
+inline constexpr float kSamplesPerMu = 100;
+
 /// Samples that every pixel starts with.
 int probe_samples(const Scene& scene, int bounces);
 
 /// Settings of the thesis (docs/method.md), one set for all scenes.
-shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options);
+shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options,
+                                            float mu);
+
+/// Whether mu rises until an end is met, from `kDefaultMu` or less.
+bool goes_in_rounds(const RenderOptions& options);
 
 /// What is known of a signal, by pixel; empty: there is no such signal.
 struct SignalLayers {
@@ -46,17 +53,20 @@ class SignalFilter {
 
     uint64_t pixel_count() const { return uint64_t(width_) * height_; }
 
-    /// From the probe samples to widths and counts. `goes_on`: more samples will follow, to which
-    /// the probe is the first part. Returns seconds on the device.
+    void set_settings(const shared::FilterSettings& settings);
+
+    /// From the samples so far to widths and counts. `goes_on`: more samples will follow, to which
+    /// these are the first part. Returns seconds on the device.
     double measure_bandwidth(bool goes_on);
     /// From all samples to filtered light. Returns seconds on the device.
     double filter();
 
-    std::vector<SampleEnds> read_sample_ends();
+    std::vector<shared::SampleEnds> read_sample_ends();
     /// The pixels that the path tracer counts from now on; at most all.
     void write_pixel_list(std::span<const uint32_t> pixels);
-    /// After filter().
+    /// Both after filter().
     FilteredLight read_light();
+    void read_layers(FilteredLight& light);
 
   private:
     /// A kernel and its number of work-items.
@@ -75,7 +85,7 @@ class SignalFilter {
     double run(std::span<const Launch> launches);
     void compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats);
     void set_args(uint32_t film_width, uint32_t film_height);
-    SignalLayers read_layers(uint32_t signal);
+    SignalLayers read_signal(uint32_t signal);
 
     device::Device& device_;
     uint32_t width_, height_, lights_, signals_;

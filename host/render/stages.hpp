@@ -6,14 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "wedge/shared/filter.h"
+
 namespace wedge::rendering {
 
-/// Samples a pixel is to be brought to.
-struct SampleEnds {
-    uint32_t paths, camera_rays;
-};
-
-/// Samples [first, end) of the pixels that get so far.
+/// Samples [first, end) of the pixels that lack some of them.
 struct Stage {
     uint32_t first = 0, end = 0;
     std::vector<uint32_t> pixels;  ///< those that trace whole paths come first
@@ -21,6 +18,6 @@ struct Stage {
 
 /// From `done` samples, which all pixels have, to the ends; a stage doubles the samples, as the
 /// sampler's stretches do.
-std::vector<Stage> cut_into_stages(std::span<const SampleEnds> ends, uint32_t done);
+std::vector<Stage> cut_into_stages(std::span<const shared::SampleEnds> ends, uint32_t done);
 
 }  // namespace wedge::rendering

@@ -47,6 +47,7 @@ std::string stats_to_json(const RenderStats& s) {
         {"compile_s", s.compile_s},
         {"render_s", s.render_s},
         {"render_cpu_s", s.render_cpu_s},
+        {"mu", s.mu > 0 ? json(s.mu) : json()},
         {"estimated_rmse", s.estimated_error ? json(s.estimated_error->rmse) : json()},
         {"estimated_rel_mse", s.estimated_error ? json(s.estimated_error->rel_mse) : json()},
         {"programs_compiled", s.programs_compiled},

@@ -45,6 +45,9 @@ struct Rect {
     int x = 0, y = 0, width = 0, height = 0;  ///< px
 };
 
+/// RenderOptions::mu where neither it nor an end is given.
+inline constexpr float kDefaultMu = 1;
+
 struct Progress {
     uint64_t samples_done = 0, samples_total = 0;  ///< pixel samples
     double elapsed_s = 0;
@@ -54,20 +57,22 @@ struct RenderOptions {
     std::string device;  ///< index, part of a name, `cpu`, `gpu`; empty: the best there is
     std::optional<int> samples_per_pixel;  ///< else the scene's
     std::optional<int> bounces;            ///< else the scene's
-    std::optional<double> time_limit_s;    ///< stop at the first batch boundary after this
+    std::optional<double> time_limit_s;    ///< stop at the first batch boundary after this; aaf
+                                           ///< then raises mu as long as there is time
     std::optional<Rect> crop;              ///< other pixels are not rendered and stay 0
     uint64_t seed = 0;
     uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
     Sampler sampler = Sampler::sobol;
     Method method = Method::mc;
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
-    /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu).
-    float mu = 1;
+    /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu). Nothing: 1, or
+    /// with a time limit or a target error what they need; with these it is the most.
+    std::optional<float> mu;
     FilterMode filter = FilterMode::guarded;  ///< aaf
     /// aaf: false gives every pixel the same number of samples, samples_per_pixel or the probe's.
     bool adaptive = true;
-    /// mc: go on until the estimated error of the image is this small (> 0), or all
-    /// samples_per_pixel are there if they are given.
+    /// Go on until the estimated error of the image is this small (> 0), or all samples_per_pixel
+    /// are there if they are given.
     std::optional<double> target_error;
     ErrorMetric target_metric = ErrorMetric::rel_mse;
     /// mc: estimate the error of the image; costs a few copies of the film from the device. With a
@@ -115,6 +120,7 @@ struct RenderStats {
     double flatten_s = 0, bvh_build_s = 0, upload_s = 0, compile_s = 0, render_s = 0;
     double render_cpu_s = 0;  ///< of all threads of the process, while render_s went by
     std::optional<EstimatedError> estimated_error;
+    double mu = 0;  ///< what aaf came to; 0: nothing was filtered
     int programs_compiled = 0, programs_from_cache = 0;
     bool interrupted = false;  ///< by `stop`
     std::string

@@ -82,7 +82,8 @@ TEST_CASE("filters_are_used_unless_something_else_is_asked_for") {
     };
     CHECK(method_of({}) == "aaf");
     CHECK(method_of({"--method", "mc"}) == "mc");
-    CHECK(method_of({"--time", "0.01"}) == "mc");
+    CHECK(method_of({"--time", "0.01"}) == "aaf");
+    CHECK(method_of({"--target-error", "0.1"}) == "aaf");
     CHECK(method_of({"--sample-offset", "8"}) == "mc");
     CHECK(method_of({"--resume", "room.state"}) == "mc");
 }
@@ -132,10 +133,14 @@ TEST_CASE("time_limit_ends_the_render") {
     const Workbench bench;
     write_room(bench);
     render_room(bench);  // fills the program caches, so that compiling does not count below
-    const ProcessResult result = render_room(bench, {"--time", "1"}, {.timeout_s = 60});
-    CHECK(result.exit_code == 0);
+    CHECK(render_room(bench, {"--method", "mc", "--time", "1"}, {.timeout_s = 60}).exit_code == 0);
     CHECK(stats_of(bench).at("render_s") >= 1.0);
     CHECK(stats_of(bench).at("render_s") < 3.0);
+    // Filtering ends before that, but not by much.
+    CHECK(render_room(bench, {"--time", "1"}, {.timeout_s = 60}).exit_code == 0);
+    CHECK(stats_of(bench).at("render_s") >= 0.5);
+    CHECK(stats_of(bench).at("render_s") < 3.0);
+    CHECK(stats_of(bench).at("mu") > 1);
     // With both, whichever is first.
     CHECK(render_room(bench, {"--time", "100", "--spp", "8"}, {.timeout_s = 60}).exit_code == 0);
     CHECK(stats_of(bench).at("samples_per_pixel") == 8);

@@ -131,7 +131,7 @@ TEST_CASE("surfaces_that_differ_have_no_weight_for_each_other") {
 }
 
 TEST_CASE("stages_hold_each_sample_of_each_pixel_once") {
-    using rendering::SampleEnds;
+    using shared::SampleEnds;
     const std::vector<SampleEnds> ends = {{8, 8},     {16, 16},  {8, 64},
                                           {100, 100}, {32, 512}, {8, 16}};
     std::vector<uint32_t> done(ends.size(), 8);

@@ -78,6 +78,7 @@ TEST_CASE("targets_that_cannot_be_are_refused") {
     }
     options.target_error = 0.1;
     options.method = Method::aaf;
+    options.adaptive = false;
     CHECK_THROWS_AS(render(small_room(), options), Error);
 }
 

@@ -31,6 +31,14 @@ typedef struct SurfaceSum {
 } SurfaceSum;
 WEDGE_ASSERT_SIZE(SurfaceSum, 64);
 
+/* Samples of a pixel: those before `paths` are whole paths, the others only look at what the camera
+   sees. `before`: those it has. */
+typedef struct SampleEnds {
+    uint paths, camera_rays;
+    uint paths_before, camera_rays_before;
+} SampleEnds;
+WEDGE_ASSERT_SIZE(SampleEnds, 16);
+
 /* What probe samples tell of the distances that decide a signal's frequencies. Of a light: from it
    to occluders, along its normal. Of the hemisphere: from the surface to what it sees. World units.
  */
@@ -55,6 +63,9 @@ WEDGE_ASSERT_SIZE(HalfLight, 64);
 #define WEDGE_SCALES 4
 #define WEDGE_SCALE_WIDTHS \
     { 0.0f, 0.25f, 0.5f, 1.0f }
+
+/* Errors are means over pixels up to so far away, along rows and columns. */
+#define WEDGE_GUARD_RADIUS 5
 
 /* What the halves tell of the errors of filters, by scale. */
 typedef struct ScaleErrors {

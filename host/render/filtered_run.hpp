@@ -1,0 +1,20 @@
+// Probe, measure, sample, filter (docs/method.md): once, or in rounds of rising mu until time is
+// over or the error is small enough.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/render/sampling_loop.hpp"
+#include "host/render/signal_filter.hpp"
+
+namespace wedge::rendering {
+
+/// Stopped early, it filters what there is. Fills `stats.mu`.
+void run_filtered(const Scene& scene, const RenderOptions& options, SamplingLoop& loop,
+                  PathTracer& tracer, SignalFilter& filter, RenderStats& stats);
+
+/// Puts filtered light in the place of what was not filtered, in sums over samples.
+void replace_unfiltered(std::vector<shared::FilmPixel>& film, const FilteredLight& light);
+
+}  // namespace wedge::rendering

@@ -1,0 +1,59 @@
+#include "host/render/told_error.hpp"
+
+#include <algorithm>
+
+namespace wedge::rendering {
+namespace {
+
+Vec3 square(const shared::float4& v) {
+    return {v.x * v.x, v.y * v.y, v.z * v.z};
+}
+
+float mean(const Vec3& v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+/// Replaces `count` values, `stride` apart, by means over WEDGE_GUARD_RADIUS to either side, as far
+/// as there are any.
+void smooth_line(float* values, std::size_t count, std::size_t stride) {
+    std::vector<double> sums(count + 1, 0.0);  // of the values before
+    for (std::size_t i = 0; i < count; ++i) sums[i + 1] = sums[i] + double(values[i * stride]);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t begin = i - std::min<std::size_t>(i, WEDGE_GUARD_RADIUS);
+        const std::size_t end = std::min(count, i + WEDGE_GUARD_RADIUS + 1);
+        values[i * stride] = float((sums[end] - sums[begin]) / double(end - begin));
+    }
+}
+
+/// The same means as those of the guard.
+void smooth(std::vector<float>& values, std::size_t width) {
+    const std::size_t height = values.size() / width;
+    for (std::size_t y = 0; y < height; ++y) smooth_line(&values[y * width], width, 1);
+    for (std::size_t x = 0; x < width; ++x) smooth_line(&values[x], height, width);
+}
+
+Vec3 share_of(float told, const shared::float4& light, float mean_square) {
+    return told > 0 && mean_square > 0 ? told / mean_square * square(light) : Vec3(0);
+}
+
+}  // namespace
+
+std::vector<Vec3> told_errors(std::span<const shared::GuardedPixel> guarded, std::size_t width) {
+    std::vector<Vec3> errors(guarded.size());
+    if (guarded.empty()) return errors;
+    std::vector<float> direct, indirect;
+    for (const shared::GuardedPixel& g : guarded) {
+        direct.push_back(mean(square(g.direct)));
+        indirect.push_back(mean(square(g.indirect)));
+    }
+    smooth(direct, width);
+    smooth(indirect, width);
+    for (std::size_t i = 0; i < guarded.size(); ++i) {
+        const shared::GuardedPixel& g = guarded[i];
+        errors[i] = share_of(g.error.x, g.direct, direct[i]) +
+                    share_of(g.error.y, g.indirect, indirect[i]) + Vec3(std::max(g.error.z, 0.0f));
+    }
+    return errors;
+}
+
+}  // namespace wedge::rendering

@@ -1,0 +1,69 @@
+// From the error of a stretch of pixels to that of each pixel and colour.
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "host/render/told_error.hpp"
+
+namespace wedge::test {
+namespace {
+
+using rendering::told_errors;
+using shared::GuardedPixel;
+
+constexpr int kWidth = 40, kHeight = 24;
+
+std::vector<GuardedPixel> grey(float direct, float indirect) {
+    GuardedPixel pixel{};
+    pixel.direct = {direct, direct, direct, 0};
+    pixel.indirect = {indirect, indirect, indirect, 0};
+    return std::vector<GuardedPixel>(kWidth * kHeight, pixel);
+}
+
+TEST_CASE("alike_pixels_have_the_error_that_is_told") {
+    std::vector<GuardedPixel> guarded = grey(2, 0.5f);
+    for (GuardedPixel& pixel : guarded) pixel.error = {0.01f, 0.02f, 0.03f, 0};
+    for (const Vec3& error : told_errors(guarded, kWidth))
+        for (int c = 0; c < 3; ++c) CHECK(error[c] == doctest::Approx(0.06).epsilon(1e-4));
+}
+
+TEST_CASE("dark_pixels_and_colours_have_the_same_share_of_their_light") {
+    // Stripes of 1 and 0.1, twice as strong in green; told as a mean over both.
+    std::vector<GuardedPixel> guarded = grey(0, 0);
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+        GuardedPixel& pixel = guarded[std::size_t(i)];
+        const float value = i % kWidth % 2 == 0 ? 1.0f : 0.1f;
+        pixel.direct = {value, 2 * value, 0, 0};
+        pixel.error.x = 0.01f;
+    }
+    const std::vector<Vec3> errors = told_errors(guarded, kWidth);
+    const std::size_t bright = 12 * kWidth + 20, dark = bright + 1;
+    CHECK(errors[bright].x == doctest::Approx(100 * errors[dark].x).epsilon(0.25));
+    CHECK(errors[bright].y == doctest::Approx(4 * errors[bright].x).epsilon(1e-4));
+    CHECK(errors[bright].z == 0);
+    double mean = 0;
+    for (const Vec3& error : errors)
+        mean += double(error.x + error.y + error.z) / 3 / double(errors.size());
+    CHECK(mean == doctest::Approx(0.01).epsilon(0.05));
+}
+
+TEST_CASE("means_are_those_of_the_guard") {
+    // One bright pixel in a corner, and in the middle: of 6x6 and of 11x11 pixels.
+    for (const auto& [x, y, count] : {std::array{0, 0, 36}, {20, 12, 121}, {kWidth - 1, 12, 66}}) {
+        std::vector<GuardedPixel> guarded = grey(1e-3f, 0);
+        const auto at = std::size_t(y * kWidth + x);
+        guarded[at].direct = {100, 100, 100, 0};
+        guarded[at].error.x = 0.5f;
+        CHECK(told_errors(guarded, kWidth)[at].x == doctest::Approx(0.5 * count).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("black_pixels_and_no_pixels_have_no_error") {
+    std::vector<GuardedPixel> guarded = grey(0, 0);
+    for (GuardedPixel& pixel : guarded) pixel.error.x = 1;
+    for (const Vec3& error : told_errors(guarded, kWidth)) CHECK(error == Vec3(0));
+    CHECK(told_errors({}, 0).empty());
+}
+
+}  // namespace
+}  // namespace wedge::test
