@@ -3,6 +3,8 @@
      filter_brightness  sums over rows of the image so far
      filter_bandwidth   widths of filters and numbers of samples
      filter_merge_halves   samples so far become a part of the first half, where more follow
+   and, when all samples are there,
+     filter_edge_noise  the error that edges inside pixels leave
    Arrays: include/wedge/shared/filter.h; places, found and sigmas in planes. */
 #include "lib/probe_planes.clh"
 #include "lib/rest_noise.clh"
@@ -88,10 +90,21 @@ inline bool differs(float a, float b) {
     return fabs(a - b) > WEDGE_SAME_COLOUR * fmax(a, b);
 }
 
-/* Largest difference of brightness to the next pixels, if there is an edge; else 0. `is_edge`: the
-   pixel's surface ends beside it. */
-inline float edge_contrast(__global const FilmPixel* film, bool is_edge, int x, int y, int width,
-                           int height) {
+/* What edges make of a pixel's brightness. */
+typedef struct {
+    float across; /* largest difference to the next pixels, if there is an edge; else 0 */
+    float inside; /* by colours inside surfaces, twice the standard deviation: what an edge through
+                     the middle has */
+} Contrast;
+
+/* True if a pixel shows more than its first surface. */
+inline bool has_more_surfaces(__global const FilmPixel* own, __global const SurfaceSum* surfaces) {
+    return surfaces->position.w != own->normal.w;
+}
+
+/* `is_edge`: the pixel shows more than a surface, or its surface ends beside it. */
+inline float contrast_across(__global const FilmPixel* film, bool is_edge, int x, int y, int width,
+                             int height) {
     __global const FilmPixel* own = film + y * width + x;
     const float e = mean_emission(own), r = mean_reflectance(own), b = brightness(own);
     float contrast = 0.0f;
@@ -104,6 +117,32 @@ inline float edge_contrast(__global const FilmPixel* film, bool is_edge, int x, 
         contrast = fmax(contrast, fabs(b - brightness(other)));
     }
     return is_edge ? contrast : 0.0f;
+}
+
+inline float contrast_inside(__global const FilmPixel* own, __global const SurfaceSum* surfaces) {
+    float square = 0.0f; /* of the relative deviation, times samples */
+    for (int k = 0; k < WEDGE_SURFACES; ++k) {
+        const SurfaceSum s = surfaces[k];
+        const float n = s.position.w;
+        if (!(n > 0.0f)) break;
+        const float mean = luminance(s.diffuse.xyz + s.specular.xyz) / n;
+        const float deviation = sqrt(fmax(s.specular.w / n - mean * mean, 0.0f));
+        if (2.0f * deviation > WEDGE_SAME_COLOUR * mean)
+            square += n * (deviation / mean) * (deviation / mean);
+    }
+    const float light = fmax(brightness(own) - mean_emission(own), 0.0f);
+    return 2.0f * light * sqrt(square / fmax(own->normal.w, 1.0f));
+}
+
+inline Contrast contrast_at(__global const FilmPixel* film, __global const SurfaceSum* surface_sums,
+                            bool ends_here, int x, int y, int width, int height) {
+    const int pixel = y * width + x;
+    __global const SurfaceSum* surfaces = surface_sums + pixel * WEDGE_SURFACES;
+    Contrast c;
+    c.across = contrast_across(film, ends_here || has_more_surfaces(film + pixel, surfaces), x, y,
+                               width, height);
+    c.inside = contrast_inside(film + pixel, surfaces);
+    return c;
 }
 
 /* In the logarithm; v >= 1. The exponent of sqrt(2) v is that of v, rounded. */
@@ -216,10 +255,9 @@ __kernel void filter_bandwidth(
     const float power = nearest_power_of_two(clamp(samples, probes, cap));
     const SampleEnds before = sample_ends[pixel];
     const uint end = max((uint)clamp(power, least, cap), before.paths);
-    const bool is_edge =
-        surface_sums[pixel * WEDGE_SURFACES].position.w != film[pixel].normal.w || ends[at] > 0.0f;
-    const float contrast = edge_contrast(film, is_edge, x, y, width, height);
-    const uint rays = camera_rays(settings, contrast, mean_brightness);
+    const Contrast contrast =
+        contrast_at(film, surface_sums, ends[at] > 0.0f, x, y, width, height);
+    const uint rays = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness);
     sample_ends[pixel].paths = end;
     sample_ends[pixel].camera_rays = max(max(end, before.camera_rays), rays);
     sample_ends[pixel].paths_before = before.paths;
@@ -246,4 +284,26 @@ __kernel void filter_merge_halves(__constant FilterSettings* settings,
     u->direct[0] += u->direct[1];
     u->indirect[0] += u->indirect[1];
     u->direct[1] = u->indirect[1] = (float4)(0.0f);
+}
+
+/* A straight edge of contrast C across a pixel leaves an error of mean square 0.11 C^2 n^-1.5 with n
+   points of a scrambled Sobol sequence (by simulation, n = 16 to 256, any direction and place). The
+   difference to the next pixels is not C: for an edge at a uniformly random place the largest has
+   the mean square 7/12 C^2 in its pixel, and 1/3 C^2 in those on both sides, which have no error. */
+#define WEDGE_EDGE_NOISE 0.11f
+#define WEDGE_SQUARES_ACROSS (7.0f / 12.0f + 2.0f / 3.0f)
+
+__kernel void filter_edge_noise(__global const FilmPixel* restrict film,
+                                __global const SurfaceSum* restrict surface_sums,
+                                __global const float* restrict ends,
+                                __global GuardedPixel* restrict guarded, int width, int height) {
+    const int pixel = (int)get_global_id(0);
+    if (pixel >= width * height) return;
+    const Planes planes = make_planes(width, height);
+    const int x = pixel % width, y = pixel / width;
+    const bool ends_here = ends[pixel_at(&planes, x, y)] > 0.0f;
+    const Contrast c = contrast_at(film, surface_sums, ends_here, x, y, width, height);
+    const float n = fmax(film[pixel].normal.w, 1.0f);
+    const float square = fmax(c.across * c.across / WEDGE_SQUARES_ACROSS, c.inside * c.inside);
+    guarded[pixel].error.w = WEDGE_EDGE_NOISE * square / (n * sqrt(n));
 }

@@ -196,6 +196,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     brightness_kernel_ = bandwidth.kernel("filter_brightness");
     bandwidth_kernel_ = bandwidth.kernel("filter_bandwidth");
     merge_kernel_ = bandwidth.kernel("filter_merge_halves");
+    edge_noise_ = bandwidth.kernel("filter_edge_noise");
     means_kernel_ = filters.kernel("filter_means");
     filter_x_ = filters.kernel("filter_x");
     filter_y_ = filters.kernel("filter_y");
@@ -225,6 +226,7 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     near_by_, ends_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height,
                     0.0f);
     set_kernel_args(merge_kernel_, settings_, sample_ends_, sums_, unfiltered_, pixels);
+    set_kernel_args(edge_noise_, film_, surface_sums_, ends_, guarded_, width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, means_, width, height);
     set_kernel_args(filter_none_, places_, film_, surface_sums_, reflected_, means_, light_, width,
                     height);
@@ -285,8 +287,11 @@ double SignalFilter::filter() {
         filter_y_.setArg(kIndexArg, cl_int(scale));
         seconds += run(std::array{Launch{filter_x_, groups}, Launch{filter_y_, groups}});
     }
-    const Launch guard[] = {
-        {guard_errors_, pixels}, {smooth_x_, pixels}, {smooth_y_, pixels}, {choose_, pixels}};
+    const Launch guard[] = {{guard_errors_, pixels},
+                            {smooth_x_, pixels},
+                            {smooth_y_, pixels},
+                            {choose_, pixels},
+                            {edge_noise_, pixels}};
     return seconds + run(guard);
 }
 

@@ -95,8 +95,8 @@ class SignalFilter {
     cl::Buffer places_, found_, near_by_, ends_, sigmas_, means_, filtered_;  // in planes
     cl::Buffer light_, errors_, smoothed_, guarded_;
     cl::Kernel surfaces_kernel_, distances_kernel_, neighbours_kernel_, brightness_kernel_,
-        bandwidth_kernel_, merge_kernel_, means_kernel_, filter_none_, filter_x_, filter_y_,
-        guard_errors_, smooth_x_, smooth_y_, choose_;
+        bandwidth_kernel_, merge_kernel_, edge_noise_, means_kernel_, filter_none_, filter_x_,
+        filter_y_, guard_errors_, smooth_x_, smooth_y_, choose_;
 };
 
 }  // namespace wedge::rendering

@@ -51,7 +51,8 @@ std::vector<Vec3> told_errors(std::span<const shared::GuardedPixel> guarded, std
     for (std::size_t i = 0; i < guarded.size(); ++i) {
         const shared::GuardedPixel& g = guarded[i];
         errors[i] = share_of(g.error.x, g.direct, direct[i]) +
-                    share_of(g.error.y, g.indirect, indirect[i]) + Vec3(std::max(g.error.z, 0.0f));
+                    share_of(g.error.y, g.indirect, indirect[i]) +
+                    Vec3(std::max(g.error.z, 0.0f) + std::max(g.error.w, 0.0f));
     }
     return errors;
 }

@@ -27,7 +27,7 @@ typedef struct SurfaceSum {
     float4 position; /* xyz, w: samples */
     float4 normal;   /* xyz, w: exponents of the lobe */
     float4 diffuse;  /* rgb: kd, w: band limits of the lobe, Omega_h */
-    float4 specular; /* rgb: ks */
+    float4 specular; /* rgb: ks, w: squares of the luminance of kd + ks */
 } SurfaceSum;
 WEDGE_ASSERT_SIZE(SurfaceSum, 64);
 
@@ -85,7 +85,7 @@ typedef struct GuardedPixel {
     float4 direct;   /* rgb, w: width of the filter that was taken, as a share of the full one */
     float4 indirect; /* rgb, w: the same */
     float4 error;    /* estimated mean square errors; x, y: of the two over rgb; z: of light not
-                        filtered */
+                        filtered; w: of edges in the pixel */
 } GuardedPixel;
 WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 

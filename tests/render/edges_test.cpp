@@ -1,0 +1,71 @@
+// Edges inside pixels, which no filter can help: camera rays look for them, and their error is
+// told.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "filter_scenes.hpp"
+
+namespace wedge::test {
+namespace {
+
+/// Stripes of two materials, `width` pixels each, on a ground that fills the film, under a lamp
+/// that nothing hides. Aslant: edges along the film's axes are found far better.
+Scene make_stripes(float width) {
+    constexpr int kPixels = 32;
+    Scene scene;
+    std::vector<Mesh> stripes;
+    const float step = 2 * width / kPixels;
+    const auto count = int(std::ceil(3 / step));
+    for (int i = 0; i < count; ++i)
+        stripes.push_back(make_quad({-1.5f + step * float(i), 0, -1.5f}, {0, 0, 3}, {step, 0, 0},
+                                    uint32_t(i % 2)));
+    scene = make_scene(stripes, {lambert(0.9f), lambert(0.1f)});
+    scene.film = {kPixels, kPixels};
+    scene.camera = {.position = {0, 8, 0},
+                    .target = {0, 0, 0},
+                    .up = {0.4f, 0, 1},
+                    .vertical_fov_rad = 2 * std::atan(0.97f / 8)};
+    scene.rect_lights = {{.center = {0, 10, 0},
+                          .edge_u = {3, 0, 0},
+                          .edge_v = {0, 0, 3},
+                          .radiance = Vec3(20),
+                          .profile = LightProfile::uniform}};
+    return scene;
+}
+
+// A third of a pixel is as wide as any stripe is seen; their means over pixels are alike.
+TEST_CASE("colours_inside_pixels_get_camera_rays") {
+    const Scene scene = make_stripes(0.31f);
+    const Image truth = render(scene, quick(8192, 0, Sampler::lattice, 9)).image;
+    const Frame frame = render(scene, filtered(1));
+    CHECK(channel_mean(frame.image, "spp") < 16);
+    const double found = channel_rmse(frame.image, truth, "albedo.G");
+    const double plain = channel_rmse(render(scene, quick(16, 0)).image, truth, "albedo.G");
+    CAPTURE(found / plain);
+    CHECK(found < 0.4 * plain);
+}
+
+TEST_CASE("the_error_layer_tells_the_error_of_edges") {
+    for (float width : {0.31f, 3.7f}) {
+        const Scene scene = make_stripes(width);
+        const Image truth = render(scene, quick(8192, 0, Sampler::lattice, 9)).image;
+        for (float mu : {0.25f, 1.0f}) {
+            double told = 0, found = 0;
+            for (uint32_t seed = 0; seed < 4; ++seed) {
+                const Image image = render(scene, filtered(mu, seed)).image;
+                for (double e : channel_values(image, "error")) told += e * e / (32 * 32);
+                found += std::pow(rmse(image, truth), 2);
+            }
+            CAPTURE(width);
+            CAPTURE(mu);
+            CAPTURE(std::sqrt(told / found));
+            // Told as if there were one edge a pixel.
+            CHECK(std::sqrt(told / found) > (width < 1 ? 0.3 : 0.7));
+            CHECK(std::sqrt(told / found) < 1.4);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace wedge::test
