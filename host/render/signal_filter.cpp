@@ -39,6 +39,13 @@ float benefit_of_doubt(float narrowing) {
     return std::clamp(1 + std::log2(narrowing), 1.0f, 2.0f);
 }
 
+/// Few samples may agree by luck and promise that there is no noise. The less error is aimed at,
+/// the less may be left to luck.
+int least_samples(const shared::FilterSettings& s) {
+    const float doublings = std::round(std::log2(std::max(1.0f, s.mu)));
+    return int(std::min(float(s.probe_samples) * std::exp2(doublings), float(s.max_samples)));
+}
+
 int mode_of(FilterMode mode) {
     switch (mode) {
         case FilterMode::guarded:
@@ -89,7 +96,7 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     const int bounces = options.bounces.value_or(scene.defaults.bounces);
     s.probe_samples = std::min(probe_samples(scene, bounces), s.max_samples);
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
-    s.least_samples = options.adaptive ? s.probe_samples : s.max_samples;
+    s.least_samples = options.adaptive ? least_samples(s) : s.max_samples;
     s.mode = mode_of(options.filter);
     s.doubt = benefit_of_doubt(s.narrowing);
     s.max_radius_px =

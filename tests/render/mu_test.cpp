@@ -140,5 +140,14 @@ TEST_CASE("rims_of_small_bright_lamps_get_better_beyond_mu_one") {
     CHECK(errors[1] < 0.5 * errors[0]);
 }
 
+// Else what a few samples agree on by luck stays wrong, whatever mu.
+TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
+    const Scene scene = make_penumbra(LightProfile::uniform);
+    for (const auto& [mu, least] : {std::pair(0.25f, 8), {1.0f, 8}, {2.0f, 16}, {8.0f, 64}}) {
+        const auto spp = channel_values(render(scene, filtered(mu)).image, "spp");
+        CHECK(*std::min_element(spp.begin(), spp.end()) == least);
+    }
+}
+
 }  // namespace
 }  // namespace wedge::test
