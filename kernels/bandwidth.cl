@@ -254,14 +254,12 @@ __kernel void filter_bandwidth(
     const float least = (float)settings->least_samples;
     const float power = nearest_power_of_two(clamp(samples, probes, cap));
     const SampleEnds before = sample_ends[pixel];
-    const uint end = max((uint)clamp(power, least, cap), before.paths);
+    const uint end = max((uint)clamp(power, least, cap), before.paths_before);
     const Contrast contrast =
         contrast_at(film, surface_sums, ends[at] > 0.0f, x, y, width, height);
     const uint rays = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness);
     sample_ends[pixel].paths = end;
-    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays), rays);
-    sample_ends[pixel].paths_before = before.paths;
-    sample_ends[pixel].camera_rays_before = before.camera_rays;
+    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
 }
 
 /* Once it is known that a pixel goes on, all it has so far belongs to its first half. */

@@ -1,6 +1,7 @@
 #include "host/render/filtered_run.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -12,8 +13,7 @@ namespace wedge::rendering {
 namespace {
 
 constexpr float kFirstMu = 0.25f;
-constexpr float kLargestMu = 10000;  // with 100 samples for each, what a film can count
-// From round to round. Samples go with the square of mu at most, the error with its inverse.
+// From round to round; the error goes with 1 / mu at best.
 constexpr double kLargestStep = 2, kSmallestStep = 1.08;
 
 uint64_t samples_to_come(std::span<const shared::SampleEnds> ends) {
@@ -43,64 +43,109 @@ class FilteredRun {
           filter_(filter),
           stats_(stats) {}
 
-    void run() {
+    /// False if it was stopped before all samples were there.
+    bool run() {
         const float last = last_mu(options_);
         float mu = goes_in_rounds(options_) ? std::min(kFirstMu, last) : last;
-        bool goes_on = probe(mu);
-        while (goes_on && sample(mu) && mu < last) {
-            const double step = next_step();
-            goes_on = step >= kSmallestStep;
-            if (goes_on) mu = std::min(float(mu * step), last);
+        bool complete = probe(mu);
+        measure(mu);
+        complete = complete && sample();
+        while (complete && mu < last && !loop_.must_stop()) {
+            const float next = next_mu(mu, last);
+            if (next == mu) break;
+            mu = next;
+            complete = sample();
         }
         if (!filtered_) filter();
+        stats_.mu = mu;
+        return complete;
     }
 
   private:
     void set_mu(float mu) {
         settings_ = make_filter_settings(scene_, options_, mu);
+        if (goes_in_rounds(options_)) settings_.max_samples = most_in_rounds();
         filter_.set_settings(settings_);
-        stats_.mu = mu;
         filtered_ = false;
     }
 
-    /// False if it was stopped, as below.
+    /// What a pixel has becomes half of what it gets next, so that limits must double, too.
+    int most_in_rounds() const {
+        const auto most = unsigned(settings_.max_samples);
+        if (!options_.samples_per_pixel) return int(std::bit_ceil(most));
+        return std::max(int(std::bit_floor(most)), settings_.probe_samples);
+    }
+
+    /// False if it was stopped.
     bool probe(float mu) {
         set_mu(mu);
         const auto probes = uint32_t(settings_.probe_samples);
+        const double before_s = loop_.elapsed_s();
         // How many samples there will be is known only afterwards; until then progress guesses.
-        if (loop_.run("probe", 0, probes, 4 * probes * filter_.pixel_count(), true)) return true;
-        loop_.add_pass("bandwidth", filter_.measure_bandwidth(false));
-        return false;
+        const bool complete =
+            loop_.run("probe", 0, probes, 4 * probes * filter_.pixel_count(), true);
+        sampling_s_ += loop_.elapsed_s() - before_s;
+        ends_.assign(filter_.pixel_count(), {probes, probes, probes, probes});
+        filter_.write_sample_ends(ends_);
+        return complete;
     }
 
-    /// Brings all pixels to what `mu` asks for.
-    bool sample(float mu) {
+    /// Widths and counts; samples so far stay as they are.
+    void measure(float mu) {
         set_mu(mu);
-        loop_.add_pass("bandwidth", filter_.measure_bandwidth(true));
-        const std::vector<shared::SampleEnds> ends = filter_.read_sample_ends();
-        const uint64_t total = loop_.samples_done() + samples_to_come(ends);
-        for (const Stage& stage : cut_into_stages(ends, uint32_t(settings_.probe_samples))) {
+        loop_.add_pass("bandwidth", filter_.measure_bandwidth());
+        ends_ = filter_.read_sample_ends();
+    }
+
+    /// Brings all pixels to the counts that were measured. False if it was stopped.
+    bool sample() {
+        const double before_s = loop_.elapsed_s();
+        loop_.add_pass("bandwidth", filter_.make_room());
+        const uint64_t total = loop_.samples_done() + samples_to_come(ends_);
+        bool complete = true;
+        for (const Stage& stage : cut_into_stages(ends_, uint32_t(settings_.probe_samples))) {
             filter_.write_pixel_list(stage.pixels);
-            if (!loop_.run("adaptive", stage.first, stage.end, total, false,
-                           uint32_t(stage.pixels.size())))
-                return false;
+            complete = loop_.run("adaptive", stage.first, stage.end, total, false,
+                                 uint32_t(stage.pixels.size()));
+            if (!complete) break;
         }
-        return true;
+        sampling_s_ += loop_.elapsed_s() - before_s;
+        for (shared::SampleEnds& e : ends_) {
+            e.paths_before = e.paths;
+            e.camera_rays_before = e.camera_rays;
+        }
+        filter_.write_sample_ends(ends_);
+        return complete;
     }
 
     void filter() {
         const double before_s = loop_.elapsed_s();
         loop_.add_pass("filter", filter_.filter());
         filter_s_ = loop_.elapsed_s() - before_s;
-        other_s_ += *filter_s_;
         filtered_ = true;
+    }
+
+    /// Measured; `mu` itself if that is the end.
+    float next_mu(float mu, float last) {
+        bool measured = false;
+        for (double step = next_step(); step >= kSmallestStep; step = std::sqrt(step)) {
+            const float next = std::min(float(mu * step), last);
+            measure(next);
+            measured = true;
+            if (fits_in_time()) return next;
+        }
+        if (measured) measure(mu);
+        return mu;
     }
 
     /// By what mu may be raised; below kSmallestStep: not at all.
     double next_step() {
         double step = kLargestStep;
         if (options_.target_error) step = std::min(step, step_to_target());
-        if (options_.time_limit_s) step = std::min(step, step_in_time());
+        if (options_.time_limit_s) {
+            if (!filter_s_) filter();  // to know how long that takes
+            step = std::min(step, std::sqrt(1 + std::max(time_left_s(), 0.0) / sampling_s_));
+        }
         return step;
     }
 
@@ -114,23 +159,22 @@ class FilteredRun {
     }
 
     EstimatedError estimate() {
-        const double before_s = loop_.elapsed_s();
         std::vector<shared::FilmPixel> film = tracer_.read_film();
         const FilteredLight light = filter_.read_light();
         replace_unfiltered(film, light);
-        const EstimatedError error = estimate_of_filtered(
-            film, told_errors(light.guarded, std::size_t(tracer_.crop().width)));
-        other_s_ += loop_.elapsed_s() - before_s;
-        return error;
+        return estimate_of_filtered(film,
+                                    told_errors(light.guarded, std::size_t(tracer_.crop().width)));
     }
 
-    /// What is left must also do for the last filter.
-    double step_in_time() {
-        if (!filter_s_) filter();
-        const double spent = loop_.elapsed_s();
-        const double left = *options_.time_limit_s - spent - *filter_s_;
-        const double sampling = spent - other_s_;
-        return left > 0 && sampling > 0 ? std::sqrt(1 + left / sampling) : 1;
+    /// Before the last filter.
+    double time_left_s() const {
+        return *options_.time_limit_s - loop_.elapsed_s() - filter_s_.value_or(0);
+    }
+
+    bool fits_in_time() const {
+        if (!options_.time_limit_s) return true;
+        const double sample_s = sampling_s_ / double(loop_.samples_done());
+        return double(samples_to_come(ends_)) * sample_s <= time_left_s();
     }
 
     const Scene& scene_;
@@ -140,16 +184,17 @@ class FilteredRun {
     SignalFilter& filter_;
     RenderStats& stats_;
     shared::FilterSettings settings_{};
+    std::vector<shared::SampleEnds> ends_;
     bool filtered_ = false;  ///< all samples there are
     std::optional<double> filter_s_;
-    double other_s_ = 0;  ///< spent neither on samples nor on bandwidths
+    double sampling_s_ = 0;
 };
 
 }  // namespace
 
-void run_filtered(const Scene& scene, const RenderOptions& options, SamplingLoop& loop,
+bool run_filtered(const Scene& scene, const RenderOptions& options, SamplingLoop& loop,
                   PathTracer& tracer, SignalFilter& filter, RenderStats& stats) {
-    FilteredRun(scene, options, loop, tracer, filter, stats).run();
+    return FilteredRun(scene, options, loop, tracer, filter, stats).run();
 }
 
 void replace_unfiltered(std::vector<shared::FilmPixel>& film, const FilteredLight& light) {

@@ -10,8 +10,9 @@
 
 namespace wedge::rendering {
 
-/// Stopped early, it filters what there is. Fills `stats.mu`.
-void run_filtered(const Scene& scene, const RenderOptions& options, SamplingLoop& loop,
+/// Stopped early, it filters what there is, and returns false: too little is known to tell the
+/// error. Fills `stats.mu`.
+bool run_filtered(const Scene& scene, const RenderOptions& options, SamplingLoop& loop,
                   PathTracer& tracer, SignalFilter& filter, RenderStats& stats);
 
 /// Puts filtered light in the place of what was not filtered, in sums over samples.

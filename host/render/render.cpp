@@ -150,6 +150,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     SamplingLoop loop(options, tracer, frame.stats);
     const CpuStopwatch cpu_watch;
     FilteredLight filtered;
+    bool complete = false;  // what is filtered
     frame.image = black_image(scene.film);
     // For all methods alike, what is read back at the end is not rendering.
     const auto note_times = [&] {
@@ -158,7 +159,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     };
     try {
         if (filter) {
-            run_filtered(scene, options, loop, tracer, *filter, frame.stats);
+            complete = run_filtered(scene, options, loop, tracer, *filter, frame.stats);
         } else {
             const uint32_t samples = sample_count(scene, options);
             if (checkpoints) loop.keep(*checkpoints);
@@ -185,13 +186,16 @@ Frame render(const Scene& scene, const RenderOptions& options) {
         if (error.kind() != ErrorKind::device || !loop.has_samples()) throw;
         note_times();
         frame.stats.failure = error.what();
+        complete = false;
+        frame.stats.mu = 0;
+        filtered = {};
     }
     std::vector<shared::FilmPixel> film = tracer.read_film();
     const std::vector<Vec3> errors =
         told_errors(filtered.guarded, std::size_t(tracer.crop().width));
     const std::vector<NamedChannel> layers = filter_layers(filtered, film, errors);
     replace_unfiltered(film, filtered);
-    if (!errors.empty()) frame.stats.estimated_error = estimate_of_filtered(film, errors);
+    if (complete) frame.stats.estimated_error = estimate_of_filtered(film, errors);
     count_film(film, tracer.crop(), options.seed, frame.stats);
     write_film(film, tracer.crop(), frame.image);
     add_channels(frame.image, layers, tracer.crop());

@@ -83,8 +83,9 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     if (samples > kMaxSamples - std::min(options.sample_offset, kMaxSamples))
         refuse(fmt::format("sample offset and samples together must be at most {}", kMaxSamples));
     if (options.method == Method::aaf) {
-        if (options.mu && (!(*options.mu > 0) || !std::isfinite(*options.mu)))
-            refuse(fmt::format("mu must be positive, got {}", *options.mu));
+        if (options.mu && !(*options.mu > 0 && *options.mu <= kLargestMu))
+            refuse(
+                fmt::format("mu must be positive and at most {}, got {}", kLargestMu, *options.mu));
         if (options.sample_offset != 0)
             refuse("the method aaf decides its samples itself: no sample offset");
     }

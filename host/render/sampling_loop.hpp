@@ -31,9 +31,10 @@ class SamplingLoop {
     uint64_t samples_done() const { return done_; }  ///< pixel samples
     double elapsed_s() const { return watch_.total(); }
 
-  private:
-    bool must_stop(bool at_pass_end);
+    /// Somebody said stop, or time is over and all pixels have the same samples.
+    bool must_stop(bool at_pass_end = true);
 
+  private:
     const RenderOptions& options_;
     PathTracer& tracer_;
     RenderStats& stats_;

@@ -216,7 +216,8 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
         (program.from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
     // Some drivers compile at the first launch: empty ones keep that out of the rendering time.
     set_args(0, 0);
-    measure_bandwidth(true);
+    measure_bandwidth();
+    make_room();
     filter();
     set_args(width_, height_);
     stats.compile_s += watch.lap();
@@ -260,16 +261,19 @@ void SignalFilter::set_settings(const shared::FilterSettings& settings) {
     device_.overwrite(settings_, &settings, sizeof(settings));
 }
 
-double SignalFilter::measure_bandwidth(bool goes_on) {
+double SignalFilter::measure_bandwidth() {
     const uint64_t pixels = pixel_count();
     const Launch measured[] = {{surfaces_kernel_, pixels},
                                {distances_kernel_, pixels},
                                {neighbours_kernel_, group_count()},
                                {brightness_kernel_, height_}};
-    double seconds = run(measured);
+    const double seconds = run(measured);
     bandwidth_kernel_.setArg(kBrightnessArg, mean_brightness());
-    seconds += run(std::array{Launch{bandwidth_kernel_, pixels}});
-    return goes_on ? seconds + run(std::array{Launch{merge_kernel_, pixels}}) : seconds;
+    return seconds + run(std::array{Launch{bandwidth_kernel_, pixels}});
+}
+
+double SignalFilter::make_room() {
+    return run(std::array{Launch{merge_kernel_, pixel_count()}});
 }
 
 float SignalFilter::mean_brightness() {
@@ -304,6 +308,10 @@ double SignalFilter::filter() {
 
 std::vector<shared::SampleEnds> SignalFilter::read_sample_ends() {
     return read<shared::SampleEnds>(device_, sample_ends_, pixel_count());
+}
+
+void SignalFilter::write_sample_ends(std::span<const shared::SampleEnds> ends) {
+    device_.overwrite(sample_ends_, ends.data(), ends.size_bytes());
 }
 
 FilteredLight SignalFilter::read_light() {

@@ -12,6 +12,8 @@ namespace wedge::rendering {
 
 /// The most that a pixel gets, for each of mu.
 inline constexpr float kSamplesPerMu = 100;
+/// With so many samples for each, what a film can count.
+inline constexpr float kLargestMu = 10000;
 
 /// Samples that every pixel starts with.
 int probe_samples(const Scene& scene, int bounces);
@@ -20,7 +22,7 @@ int probe_samples(const Scene& scene, int bounces);
 shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options,
                                             float mu);
 
-/// Whether mu rises until an end is met, from `kDefaultMu` or less.
+/// Whether mu rises until an end is met.
 bool goes_in_rounds(const RenderOptions& options);
 
 /// What is known of a signal, by pixel; empty: there is no such signal.
@@ -55,13 +57,17 @@ class SignalFilter {
 
     void set_settings(const shared::FilterSettings& settings);
 
-    /// From the samples so far to widths and counts. `goes_on`: more samples will follow, to which
-    /// these are the first part. Returns seconds on the device.
-    double measure_bandwidth(bool goes_on);
-    /// From all samples to filtered light. Returns seconds on the device.
+    /// All of these return seconds on the device.
+    /// From the samples so far to widths and counts.
+    double measure_bandwidth();
+    /// To be called before the samples that were counted are added: those so far become a part of
+    /// the first half.
+    double make_room();
+    /// From all samples to filtered light.
     double filter();
 
     std::vector<shared::SampleEnds> read_sample_ends();
+    void write_sample_ends(std::span<const shared::SampleEnds> ends);
     /// The pixels that the path tracer counts from now on; at most all.
     void write_pixel_list(std::span<const uint32_t> pixels);
     /// Both after filter().

@@ -14,22 +14,25 @@ float mean(const Vec3& v) {
 }
 
 /// Replaces `count` values, `stride` apart, by means over WEDGE_GUARD_RADIUS to either side, as far
-/// as there are any.
-void smooth_line(float* values, std::size_t count, std::size_t stride) {
-    std::vector<double> sums(count + 1, 0.0);  // of the values before
-    for (std::size_t i = 0; i < count; ++i) sums[i + 1] = sums[i] + double(values[i * stride]);
+/// as there are any. Not by differences of running sums: one huge value would spoil all after it.
+void smooth_line(float* values, std::size_t count, std::size_t stride, std::vector<float>& line) {
+    line.clear();
+    for (std::size_t i = 0; i < count; ++i) line.push_back(values[i * stride]);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t begin = i - std::min<std::size_t>(i, WEDGE_GUARD_RADIUS);
         const std::size_t end = std::min(count, i + WEDGE_GUARD_RADIUS + 1);
-        values[i * stride] = float((sums[end] - sums[begin]) / double(end - begin));
+        float sum = 0;
+        for (std::size_t k = begin; k < end; ++k) sum += line[k];
+        values[i * stride] = sum / float(end - begin);
     }
 }
 
 /// The same means as those of the guard.
 void smooth(std::vector<float>& values, std::size_t width) {
     const std::size_t height = values.size() / width;
-    for (std::size_t y = 0; y < height; ++y) smooth_line(&values[y * width], width, 1);
-    for (std::size_t x = 0; x < width; ++x) smooth_line(&values[x], height, width);
+    std::vector<float> line;
+    for (std::size_t y = 0; y < height; ++y) smooth_line(&values[y * width], width, 1, line);
+    for (std::size_t x = 0; x < width; ++x) smooth_line(&values[x], height, width, line);
 }
 
 Vec3 share_of(float told, const shared::float4& light, float mean_square) {

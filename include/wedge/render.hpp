@@ -57,22 +57,23 @@ struct RenderOptions {
     std::string device;  ///< index, part of a name, `cpu`, `gpu`; empty: the best there is
     std::optional<int> samples_per_pixel;  ///< else the scene's
     std::optional<int> bounces;            ///< else the scene's
-    std::optional<double> time_limit_s;    ///< stop at the first batch boundary after this; aaf
-                                           ///< then raises mu as long as there is time
-    std::optional<Rect> crop;              ///< other pixels are not rendered and stay 0
+    /// mc: stop at the first batch boundary after this. aaf: raise mu as long as there is time.
+    std::optional<double> time_limit_s;
+    std::optional<Rect> crop;  ///< other pixels are not rendered and stay 0
     uint64_t seed = 0;
     uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
     Sampler sampler = Sampler::sobol;
     Method method = Method::mc;
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
-    /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu). Nothing: 1, or
-    /// with a time limit or a target error what they need; with these it is the most.
+    /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu). With a time
+    /// limit or a target error this is the most that mu rises to, by default 10000, or where
+    /// samples are limited samples_per_pixel / 100 or 1; else 1 by default.
     std::optional<float> mu;
     FilterMode filter = FilterMode::guarded;  ///< aaf
     /// aaf: false gives every pixel the same number of samples, samples_per_pixel or the probe's.
     bool adaptive = true;
-    /// Go on until the estimated error of the image is this small (> 0), or all samples_per_pixel
-    /// are there if they are given.
+    /// Go on until the estimated error of the image is this small (> 0). mc: or all
+    /// samples_per_pixel are there if they are given.
     std::optional<double> target_error;
     ErrorMetric target_metric = ErrorMetric::rel_mse;
     /// mc: estimate the error of the image; costs a few copies of the film from the device. With a
