@@ -13,6 +13,7 @@ namespace wedge::rendering {
 namespace {
 
 constexpr float kFirstMu = 0.25f;
+constexpr float kLeastMu = 1.0f / 64;  // asks for hardly more than the probe
 // From round to round; the error goes with 1 / mu at best.
 constexpr double kLargestStep = 2, kSmallestStep = 1.08;
 
@@ -49,6 +50,7 @@ class FilteredRun {
         float mu = goes_in_rounds(options_) ? std::min(kFirstMu, last) : last;
         bool complete = probe(mu);
         measure(mu);
+        while (goes_in_rounds(options_) && !fits_in_time() && mu > kLeastMu) measure(mu /= 2);
         complete = complete && sample();
         while (complete && mu < last && !loop_.must_stop()) {
             const float next = next_mu(mu, last);

@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "filter_scenes.hpp"
 
@@ -119,6 +121,23 @@ TEST_CASE("mu_rises_as_long_as_there_is_time") {
     CHECK(late.stats.render_s < 5);  // other work may slow it down
     options.mu = 0.5f;
     CHECK(render(scene, options).stats.mu == 0.5);
+}
+
+// A round that would be cut leaves filters narrower than what was sampled, and an error that nobody
+// knows.
+TEST_CASE("rounds_that_do_not_fit_are_not_begun") {
+    RenderOptions options = filtered(1);
+    options.mu.reset();
+    options.time_limit_s = 6;
+    bool slept = false;
+    options.on_progress = [&](const Progress&) {  // the probe takes most of the time
+        if (!slept) std::this_thread::sleep_for(std::chrono::milliseconds(5550));
+        slept = true;
+    };
+    const Frame frame = render(make_penumbra(LightProfile::uniform), options);
+    CHECK(slept);
+    CHECK(frame.stats.mu < 0.25);
+    CHECK(frame.stats.estimated_error.has_value());
 }
 
 // Samples are limited: filters that go on narrowing would leave noise.
