@@ -6,6 +6,7 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -82,17 +83,32 @@ TEST_CASE("frames_leave_memory_and_handles_as_they_were") {
     const double allocated = allocated_bytes();
     const double memory = resident_bytes();
     const std::size_t handles = open_handles();
-    for (int i = kWarm; i < frames; ++i) frame(i);
+    // What is lost at every frame grows in every stretch of frames; what a cache fills late,
+    // whichever thread comes to it first, grows once.
+    constexpr int kStretch = 10;
+    std::vector<double> ends{allocated};
+    for (int i = kWarm; i < frames; ++i) {
+        frame(i);
+        if ((i + 1) % kStretch == 0) ends.push_back(allocated_bytes());
+    }
+    std::vector<double> growths;
+    for (std::size_t k = 1; k < ends.size(); ++k) growths.push_back(ends[k] - ends[k - 1]);
+    REQUIRE(!growths.empty());
+    std::nth_element(growths.begin(), growths.begin() + long(growths.size() / 2), growths.end());
+    const double steady = growths[growths.size() / 2] * double(growths.size());
     const double kept = allocated_bytes() - allocated;
     const double growth = resident_bytes() - memory;
     INFO(fmt::format(
-        "after {} frames and after {}: {:.2f} and {:.2f} MiB allocated, {:.1f} and {:.1f} resident",
-        kWarm, frames, allocated / 1048576, (allocated + kept) / 1048576, memory / 1048576,
-        (memory + growth) / 1048576));
-    // What is handed out repeats to a few tenths of a per cent. Which pages stay resident also
-    // depends on which thread's heap an allocation fell into, several per cent from run to run
-    // however many frames there are, so that limit only sees mappings beside the allocator's.
-    CHECK(kept <= 0.01 * allocated);
+        "after {} frames and after {}: {:.2f} and {:.2f} MiB allocated ({:.3f} of it steadily), "
+        "{:.1f} and {:.1f} resident",
+        kWarm, frames, allocated / 1048576, (allocated + kept) / 1048576, steady / 1048576,
+        memory / 1048576, (memory + growth) / 1048576));
+    // Steady growth repeats to a few hundredths of a per cent. Caches filled late: 4 to 13 %.
+    // Which pages stay resident also depends on which thread's heap an allocation fell into,
+    // several per cent from run to run however many frames there are, so that limit only sees
+    // mappings beside the allocator's.
+    CHECK(steady <= 0.01 * allocated);
+    CHECK(kept <= 0.2 * allocated);
     CHECK(growth <= 0.15 * memory);
     CHECK(open_handles() == handles);
 }
