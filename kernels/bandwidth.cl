@@ -151,17 +151,18 @@ inline float nearest_power_of_two(float v) {
 }
 
 /* Camera rays of a pixel. What they are for is the noise of coverage, whose square falls with
-   n^-1.5 under a low-discrepancy sequence and rises with the square of the contrast C: for a given
-   number of rays in all, the sum of squares is least with n proportional to C^(2 / 2.5). The noise
-   of what is filtered falls about with 1 / mu. */
+   n^-1.5 under a low-discrepancy sequence and rises with the square of the contrast C; the square
+   of the paths' noise falls with 1 / N, and N, their number, rises with mu. For a given time the sum
+   of both is least where a little more time lowers them alike: C^2 n^-2.5 ~ N^-2 over the cost of a
+   path, so that n goes with (mu C)^(2 / 2.5). The cost is in camera_rays_at_edges. */
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
 #define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
 inline uint camera_rays(__constant FilterSettings* settings, float contrast,
                         float mean_brightness) {
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
-    const float n = (float)settings->camera_rays_at_edges * pow(settings->mu, 4.0f / 3.0f) *
-                    pow(contrast / mean_brightness, 0.8f);
+    const float n = (float)settings->camera_rays_at_edges *
+                    pow(settings->mu * contrast / mean_brightness, 0.8f);
     const float most =
         fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
     return (uint)nearest_power_of_two(clamp(n, 1.0f, most));

@@ -16,15 +16,18 @@ constexpr int kProbeSamples = 16, kShadowProbeSamples = WEDGE_LIGHT_PROBES;
 constexpr float kAlphaDirect = 1;       // section 3.6
 constexpr float kAlphaIndirect = 0.3f;  // section 4.5
 constexpr float kGaussian = 3;          // k of eq. 3.13
-constexpr float kUniform = 4.5;  // flat lights have side lobes; the thesis takes mu = 3 for 2
-// Camera rays of a pixel with an edge as high as the image is bright: they are cheaper the longer
-// paths are.
-constexpr int kCameraRaysWithBounces = 256, kCameraRaysAlone = 64;
+constexpr float kUniform = 4.5;    // flat lights have side lobes; the thesis takes mu = 3 for 2
+constexpr float kCameraRays = 80;  // of a pixel with an edge as high as the image is bright
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 12;       // of filter_y
 constexpr cl_uint kBrightnessArg = 13;  // of filter_bandwidth
+
+/// The longer paths are, the cheaper beside them (kernels/bandwidth.cl).
+int camera_rays_at_edges(int bounces) {
+    return int(std::lround(kCameraRays * std::pow(float(bounces + 1), 0.4f)));
+}
 
 /// By the equations widths go with 1 / mu, and the samples a filter reaches stay as many: noise
 /// would be the same for any mu, and bias, which goes with the square of a width, hopeless where mu
@@ -101,7 +104,7 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     s.doubt = benefit_of_doubt(s.narrowing);
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
-    s.camera_rays_at_edges = bounces > 0 ? kCameraRaysWithBounces : kCameraRaysAlone;
+    s.camera_rays_at_edges = camera_rays_at_edges(bounces);
     s.pixel_angle = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(scene.film.height);
     return s;
 }
