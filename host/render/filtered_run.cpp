@@ -14,6 +14,8 @@ namespace {
 
 constexpr float kFirstMu = 0.25f;
 constexpr float kLeastMu = 1.0f / 64;  // asks for hardly more than the probe
+// A given mu from this one on is measured twice: what a few samples happen to meet decides much.
+constexpr float kLooksTwiceFrom = 2, kFirstLookMu = 1;
 // From round to round; the error goes with 1 / mu at best.
 constexpr double kLargestStep = 2, kSmallestStep = 1.08;
 
@@ -47,13 +49,13 @@ class FilteredRun {
     /// False if it was stopped before all samples were there.
     bool run() {
         const float last = last_mu(options_);
-        float mu = goes_in_rounds(options_) ? std::min(kFirstMu, last) : last;
+        float mu = first_mu(last);
         bool complete = probe(mu);
         measure(mu);
         while (goes_in_rounds(options_) && !fits_in_time() && mu > kLeastMu) measure(mu /= 2);
-        complete = complete && sample();
+        complete = complete && sample(last / mu);
         while (complete && mu < last && !loop_.must_stop()) {
-            const float next = next_mu(mu, last);
+            const float next = goes_in_rounds(options_) ? next_mu(mu, last) : look_again(last);
             if (next == mu) break;
             mu = next;
             complete = sample();
@@ -66,9 +68,22 @@ class FilteredRun {
   private:
     void set_mu(float mu) {
         settings_ = make_filter_settings(scene_, options_, mu);
-        if (goes_in_rounds(options_)) settings_.max_samples = most_in_rounds();
+        if (goes_in_rounds(options_))
+            settings_.max_samples = most_in_rounds();
+        else if (mu < last_mu(options_))
+            settings_.max_samples = most_at_first_look();
         filter_.set_settings(settings_);
         filtered_ = false;
+    }
+
+    float first_mu(float last) const {
+        if (goes_in_rounds(options_)) return std::min(kFirstMu, last);
+        return options_.adaptive && last >= kLooksTwiceFrom ? kFirstLookMu : last;
+    }
+
+    float look_again(float mu) {
+        measure(mu);
+        return mu;
     }
 
     /// What a pixel has becomes half of what it gets next, so that limits must double, too.
@@ -76,6 +91,12 @@ class FilteredRun {
         const auto most = unsigned(settings_.max_samples);
         if (!options_.samples_per_pixel) return int(std::bit_ceil(most));
         return std::max(int(std::bit_floor(most)), settings_.probe_samples);
+    }
+
+    int most_at_first_look() const {
+        const auto last = make_filter_settings(scene_, options_, last_mu(options_));
+        const int half = int(std::bit_floor(unsigned(last.max_samples) / 2));
+        return std::max(std::min(settings_.max_samples, half), settings_.probe_samples);
     }
 
     /// False if it was stopped.
@@ -99,11 +120,13 @@ class FilteredRun {
         ends_ = filter_.read_sample_ends();
     }
 
-    /// Brings all pixels to the counts that were measured. False if it was stopped.
-    bool sample() {
+    /// Brings all pixels to the counts that were measured. False if it was stopped. `more`: how
+    /// many times as many there may be in the end, which progress goes by.
+    bool sample(float more = 1) {
         const double before_s = loop_.elapsed_s();
         loop_.add_pass("bandwidth", filter_.make_room());
-        const uint64_t total = loop_.samples_done() + samples_to_come(ends_);
+        const uint64_t to_come = uint64_t(more * double(samples_to_come(ends_)));
+        const uint64_t total = loop_.samples_done() + to_come;
         bool complete = true;
         for (const Stage& stage : cut_into_stages(ends_, uint32_t(settings_.probe_samples))) {
             filter_.write_pixel_list(stage.pixels);

@@ -140,6 +140,27 @@ TEST_CASE("rims_of_small_bright_lamps_get_better_beyond_mu_one") {
     CHECK(errors[1] < 0.5 * errors[0]);
 }
 
+// By luck a few samples meet what is thin or not. What is spent for a large mu is decided with more
+// of them, so that it is much the same whatever the seed.
+TEST_CASE("samples_for_a_large_mu_are_no_matter_of_luck") {
+    std::vector<Mesh> meshes{make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0)};
+    for (float x : {-0.8f, 0.0f, 0.8f})
+        meshes.push_back(make_quad({x, 0.6f, -2}, {0, 0, 4}, {0.01f, 0, 0}, 0));
+    Scene scene = make_penumbra(LightProfile::uniform);
+    const Scene wires = make_scene(meshes, {lambert(0.7f)});
+    scene.meshes = wires.meshes;
+    scene.instances = wires.instances;
+    scene.materials = wires.materials;
+    scene.film = {48, 36};
+    const auto a = channel_values(render(scene, filtered(4, 1)).image, "spp");
+    const auto b = channel_values(render(scene, filtered(4, 2)).image, "spp");
+    double apart = 0;  // in doublings
+    for (std::size_t i = 0; i < a.size(); ++i) apart += std::abs(std::log2(a[i] / b[i]));
+    apart /= double(a.size());
+    CAPTURE(apart);
+    CHECK(apart < 0.2);
+}
+
 // Else what a few samples agree on by luck stays wrong, whatever mu.
 TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
     const Scene scene = make_penumbra(LightProfile::uniform);
