@@ -46,6 +46,17 @@ TEST_CASE("colours_inside_pixels_get_camera_rays") {
     CHECK(found < 0.4 * plain);
 }
 
+// Beside the noise of paths that of edges falls faster the more rays look for it, so that a larger
+// share of them would be spent in vain: by a power of 4/3 they would be 16 times as many.
+TEST_CASE("camera_rays_grow_more_slowly_than_mu") {
+    const Scene scene = make_stripes(0.31f);
+    const double few = double(render(scene, filtered(1)).stats.rays);
+    const double many = double(render(scene, filtered(8)).stats.rays);
+    CAPTURE(many / few);
+    CHECK(many / few > 4);
+    CHECK(many / few < 9);
+}
+
 TEST_CASE("the_error_layer_tells_the_error_of_edges") {
     for (float width : {0.31f, 3.7f}) {
         const Scene scene = make_stripes(width);
