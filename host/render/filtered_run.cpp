@@ -53,7 +53,7 @@ class FilteredRun {
         bool complete = probe(mu);
         measure(mu);
         while (goes_in_rounds(options_) && !fits_in_time() && mu > kLeastMu) measure(mu /= 2);
-        complete = complete && sample(last / mu);
+        complete = complete && sample(goes_in_rounds(options_) ? 1 : last / mu);
         while (complete && mu < last && !loop_.must_stop()) {
             const float next = goes_in_rounds(options_) ? next_mu(mu, last) : look_again(last);
             if (next == mu) break;
