@@ -80,7 +80,9 @@ def draw_row(axes, program, references, folder, scene, mu, signal):
              cmap="RdBu", vmin=-1, vmax=1)
     plt.colorbar(show(axes[4], filtered["spp"], "samples"), ax=axes[4], shrink=0.7)
     widths = filtered[f"width.{signal}"]
-    plt.colorbar(show(axes[5], widths, f"width of the filter, px ({signal})"), ax=axes[5], shrink=0.7)
+    # Where a pixel's rays have found nothing the width is all but infinite.
+    most = np.percentile(widths, 99.9)
+    plt.colorbar(show(axes[5], widths, f"width of the filter, px ({signal})", vmax=most), ax=axes[5], shrink=0.7)
 
 
 def main(program, references, out):
