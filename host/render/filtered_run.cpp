@@ -68,10 +68,7 @@ class FilteredRun {
   private:
     void set_mu(float mu) {
         settings_ = make_filter_settings(scene_, options_, mu);
-        if (goes_in_rounds(options_))
-            settings_.max_samples = most_in_rounds();
-        else if (mu < last_mu(options_))
-            settings_.max_samples = most_at_first_look();
+        if (goes_in_rounds(options_)) settings_.max_samples = most_in_rounds();
         filter_.set_settings(settings_);
         filtered_ = false;
     }
@@ -91,12 +88,6 @@ class FilteredRun {
         const auto most = unsigned(settings_.max_samples);
         if (!options_.samples_per_pixel) return int(std::bit_ceil(most));
         return std::max(int(std::bit_floor(most)), settings_.probe_samples);
-    }
-
-    int most_at_first_look() const {
-        const auto last = make_filter_settings(scene_, options_, last_mu(options_));
-        const int half = int(std::bit_floor(unsigned(last.max_samples) / 2));
-        return std::max(std::min(settings_.max_samples, half), settings_.probe_samples);
     }
 
     /// False if it was stopped.
