@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "filter_scenes.hpp"
+#include "host/render/signal_filter.hpp"
 
 namespace wedge::test {
 namespace {
@@ -55,6 +56,18 @@ TEST_CASE("camera_rays_grow_more_slowly_than_mu") {
     CAPTURE(many / few);
     CHECK(many / few > 4);
     CHECK(many / few < 9);
+}
+
+// The price of a path goes with its surfaces, and what is cheaper beside it pays more often: by the
+// power 1 / 2.5, where the square of an edge's error falls with n^-1.5.
+TEST_CASE("the_longer_paths_are_the_more_camera_rays_pay") {
+    const Scene scene = make_stripes(0.31f);
+    const auto rays = [&](int bounces) {
+        RenderOptions options = filtered(1);
+        options.bounces = bounces;
+        return double(rendering::make_filter_settings(scene, options, 1).camera_rays_at_edges);
+    };
+    CHECK(rays(3) / rays(0) == doctest::Approx(std::pow(4, 1 / 2.5)).epsilon(0.01));
 }
 
 TEST_CASE("the_error_layer_tells_the_error_of_edges") {
