@@ -2,7 +2,6 @@
    has found:
      filter_brightness  sums over rows of the image so far
      filter_bandwidth   widths of filters and numbers of samples
-     filter_merge_halves   samples so far become a part of the first half, where more follow
    and, when all samples are there,
      filter_edge_noise  the error that edges inside pixels leave
    Arrays: include/wedge/shared/filter.h; places, found and sigmas in planes. */
@@ -261,28 +260,6 @@ __kernel void filter_bandwidth(
     const uint rays = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness);
     sample_ends[pixel].paths = end;
     sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
-}
-
-/* Once it is known that a pixel goes on, all it has so far belongs to its first half. */
-__kernel void filter_merge_halves(__constant FilterSettings* settings,
-                                  __global const SampleEnds* restrict sample_ends,
-                                  __global float4* restrict sums,
-                                  __global HalfLight* restrict unfiltered, uint count) {
-    const uint id = get_global_id(0);
-    if (id >= count) return;
-    const uint probes = (uint)settings->probe_samples;
-    const SampleEnds ends = sample_ends[id];
-    if (ends.paths == ends.paths_before ||
-        second_half(ends.paths, probes) < ends.paths_before) return;
-    __global float4* s = sums + id * WEDGE_SURFACES * WEDGE_SIGNALS * 2;
-    for (int i = 0; i < WEDGE_SURFACES * WEDGE_SIGNALS; ++i) {
-        s[2 * i] += s[2 * i + 1];
-        s[2 * i + 1] = (float4)(0.0f);
-    }
-    __global HalfLight* u = unfiltered + id;
-    u->direct[0] += u->direct[1];
-    u->indirect[0] += u->indirect[1];
-    u->direct[1] = u->indirect[1] = (float4)(0.0f);
 }
 
 /* A straight edge of contrast C across a pixel leaves an error of mean square 0.11 C^2 n^-1.5 with n

@@ -302,7 +302,6 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const SampleEnds ends = sample_ends[pixel];
     const uint end = min(first_sample + sample_count, max(ends.paths, ends.camera_rays));
     sample_count = end > first_sample ? end - first_sample : 0u;
-    const uint halves = second_half(ends.paths, (uint)filter_settings->probe_samples);
     PixelSignals signals = {all_surfaces + pixel * WEDGE_SURFACES,
                             all_sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2,
                             all_distances + pixel * WEDGE_SURFACES * WEDGE_SIGNALS,
@@ -325,14 +324,14 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
             if (signals.camera_only ? signals.known : sample < ends.paths_before) continue;
 #endif
             const Sampler sampler =
-                make_sampler(params->sampler, params->seed, params->log2_samples,
+                make_sampler(params->sampler, params->seed, params->sequences,
                              (uint)params->strata, code, sample);
 #if WEDGE_SIGNALS > 0
-            signals.half_index = signals.camera_only ? sample & 1u : sample >= halves;
+            signals.half_index = sample & 1u;
             signals.probing_lights = probing && sample < WEDGE_LIGHT_PROBES;
 #endif
             const float2 jitter =
-                draw_film(&sampler, params->seed, params->log2_samples, code, sample);
+                draw_film(&sampler, params->seed, params->sequences, code, sample);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
             const PathResult r =
                 trace_path(&scene, params, ray, view_axis,

@@ -1,7 +1,6 @@
 #include "host/render/filtered_run.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -68,7 +67,6 @@ class FilteredRun {
   private:
     void set_mu(float mu) {
         settings_ = make_filter_settings(scene_, options_, mu);
-        if (goes_in_rounds(options_)) settings_.max_samples = most_in_rounds();
         filter_.set_settings(settings_);
         filtered_ = false;
     }
@@ -81,13 +79,6 @@ class FilteredRun {
     float look_again(float mu) {
         measure(mu);
         return mu;
-    }
-
-    /// What a pixel has becomes half of what it gets next, so that limits must double, too.
-    int most_in_rounds() const {
-        const auto most = unsigned(settings_.max_samples);
-        if (!options_.samples_per_pixel) return int(std::bit_ceil(most));
-        return std::max(int(std::bit_floor(most)), settings_.probe_samples);
     }
 
     /// False if it was stopped.
@@ -115,7 +106,6 @@ class FilteredRun {
     /// many times as many there may be in the end, which progress goes by.
     bool sample(float more = 1) {
         const double before_s = loop_.elapsed_s();
-        loop_.add_pass("bandwidth", filter_.make_room());
         const uint64_t to_come = uint64_t(more * double(samples_to_come(ends_)));
         const uint64_t total = loop_.samples_done() + to_come;
         bool complete = true;

@@ -45,7 +45,7 @@ shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& se
     params.seed = settings.seed;
     params.sampler = sampler_kind(settings.sampler);
     params.strata = settings.strata;
-    params.log2_samples = settings.log2_samples;
+    params.sequences = settings.sequences;
     params.bounces = settings.bounces;
     const bool mesh_lights = std::any_of(lights.begin(), lights.end(), [](const auto& light) {
         return light.kind == WEDGE_LIGHT_TRIANGLE;

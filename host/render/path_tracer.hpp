@@ -20,8 +20,8 @@ struct PathSettings {
     int bounces = 0;
     uint32_t seed = 0;
     Sampler sampler = Sampler::sobol;
-    int log2_samples = 10;  ///< FrameParams::log2_samples
-    int strata = 1;         ///< FrameParams::strata
+    int sequences = 1;  ///< FrameParams::sequences
+    int strata = 1;     ///< FrameParams::strata
     uint32_t local_size = 0;
     BvhOptions bvh;
     std::string kernel_dir;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "host/render/plan.hpp"
@@ -16,8 +15,7 @@ namespace {
 
 constexpr uint32_t kMaxSamples = 1u << 24;  // a float film counts samples up to here
 constexpr int kMaxBounces = 1024;
-// Length of the Sobol stretch where the number of samples is not known beforehand.
-constexpr int kOpenEndedLog2 = 10;
+// Where the number of samples is not known beforehand.
 constexpr int kOpenEndedStrata = 16;
 
 [[noreturn]] void refuse(const std::string& message) {
@@ -94,14 +92,8 @@ PathSettings make_path_settings(const Scene& scene, const RenderOptions& options
     settings.sampler = options.sampler;
     const bool open_ended =
         (options.time_limit_s || options.target_error) && !options.samples_per_pixel;
-    settings.log2_samples =
-        open_ended ? kOpenEndedLog2 : std::bit_width(options.sample_offset + samples - 1);
-    // Where nothing is filtered there are no halves, and all pixels get the same samples.
-    if (make_plan(scene, options.method, settings.bounces).signals > 0) {
-        const auto probes =
-            uint32_t(make_filter_settings(scene, options, kDefaultMu).probe_samples);
-        settings.log2_samples = WEDGE_DOUBLING_FROM(std::max(int(std::bit_width(probes)) - 2, 1));
-    }
+    // Where nothing is filtered there are no halves.
+    settings.sequences = make_plan(scene, options.method, settings.bounces).signals > 0 ? 2 : 1;
     settings.strata = open_ended ? kOpenEndedStrata : int(samples);
     settings.local_size = options.local_size;
     settings.kernel_dir = options.kernel_dir;

@@ -95,7 +95,7 @@ std::string fingerprint_of(const Scene& scene, const RenderOptions& options,
     const Rect& crop = settings.crop;
     print.add(crop.x).add(crop.y).add(crop.width).add(crop.height);
     print.add(options.seed).add(options.sample_offset).add(settings.sampler);
-    print.add(settings.log2_samples).add(settings.strata).add(settings.bounces);
+    print.add(settings.strata).add(settings.bounces);
     return print.hex();
 }
 

@@ -42,6 +42,12 @@ float benefit_of_doubt(float narrowing) {
     return std::clamp(1 + std::log2(narrowing), 1.0f, 2.0f);
 }
 
+/// A power of two, which the sampler likes best.
+int most_samples(float mu) {
+    const float doublings = std::round(std::log2(std::max(1.0f, mu)));
+    return int(kSamplesPerMu * std::exp2(doublings));
+}
+
 /// Few samples may agree by luck and promise that there is no noise. The less error is aimed at,
 /// the less may be left to luck.
 int least_samples(const shared::FilterSettings& s) {
@@ -94,8 +100,7 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     s.alpha_indirect = kAlphaIndirect;
     s.k_gaussian = kGaussian;
     s.k_uniform = kUniform;
-    s.max_samples =
-        options.samples_per_pixel.value_or(int(std::lround(kSamplesPerMu * std::max(1.0f, s.mu))));
+    s.max_samples = options.samples_per_pixel.value_or(most_samples(mu));
     const int bounces = options.bounces.value_or(scene.defaults.bounces);
     s.probe_samples = std::min(probe_samples(scene, bounces), s.max_samples);
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
@@ -205,7 +210,6 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     neighbours_kernel_ = distances.kernel("filter_neighbours");
     brightness_kernel_ = bandwidth.kernel("filter_brightness");
     bandwidth_kernel_ = bandwidth.kernel("filter_bandwidth");
-    merge_kernel_ = bandwidth.kernel("filter_merge_halves");
     edge_noise_ = bandwidth.kernel("filter_edge_noise");
     means_kernel_ = filters.kernel("filter_means");
     filter_x_ = filters.kernel("filter_x");
@@ -220,7 +224,6 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     // Some drivers compile at the first launch: empty ones keep that out of the rendering time.
     set_args(0, 0);
     measure_bandwidth();
-    make_room();
     filter();
     set_args(width_, height_);
     stats.compile_s += watch.lap();
@@ -236,7 +239,6 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, places_,
                     near_by_, ends_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height,
                     0.0f);
-    set_kernel_args(merge_kernel_, settings_, sample_ends_, sums_, unfiltered_, pixels);
     set_kernel_args(edge_noise_, film_, surface_sums_, ends_, guarded_, width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, means_, width, height);
     set_kernel_args(filter_none_, places_, film_, surface_sums_, reflected_, means_, light_, width,
@@ -273,10 +275,6 @@ double SignalFilter::measure_bandwidth() {
     const double seconds = run(measured);
     bandwidth_kernel_.setArg(kBrightnessArg, mean_brightness());
     return seconds + run(std::array{Launch{bandwidth_kernel_, pixels}});
-}
-
-double SignalFilter::make_room() {
-    return run(std::array{Launch{merge_kernel_, pixel_count()}});
 }
 
 float SignalFilter::mean_brightness() {

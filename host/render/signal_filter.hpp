@@ -10,8 +10,8 @@
 
 namespace wedge::rendering {
 
-/// The most that a pixel gets, for each of mu.
-inline constexpr float kSamplesPerMu = 100;
+/// The most that a pixel gets, for each of mu. (The thesis has 100; this is a power of two.)
+inline constexpr float kSamplesPerMu = 128;
 /// With so many samples for each, what a film can count.
 inline constexpr float kLargestMu = 10000;
 
@@ -60,9 +60,6 @@ class SignalFilter {
     /// All of these return seconds on the device.
     /// From the samples so far to widths and counts.
     double measure_bandwidth();
-    /// To be called before the samples that were counted are added: those so far become a part of
-    /// the first half.
-    double make_room();
     /// From all samples to filtered light.
     double filter();
 
@@ -101,8 +98,8 @@ class SignalFilter {
     cl::Buffer places_, found_, near_by_, ends_, sigmas_, means_, filtered_;  // in planes
     cl::Buffer light_, errors_, smoothed_, guarded_;
     cl::Kernel surfaces_kernel_, distances_kernel_, neighbours_kernel_, brightness_kernel_,
-        bandwidth_kernel_, merge_kernel_, edge_noise_, means_kernel_, filter_none_, filter_x_,
-        filter_y_, guard_errors_, smooth_x_, smooth_y_, choose_;
+        bandwidth_kernel_, edge_noise_, means_kernel_, filter_none_, filter_x_, filter_y_,
+        guard_errors_, smooth_x_, smooth_y_, choose_;
 };
 
 }  // namespace wedge::rendering

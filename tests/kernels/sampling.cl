@@ -4,13 +4,13 @@
 #include "lib/light.clh"
 #include "lib/random.clh"
 
-__kernel void draw_points(int kind, uint seed, int log2_samples, uint strata, uint pixel, uint first_sample,
+__kernel void draw_points(int kind, uint seed, int sequences, uint strata, uint pixel, uint first_sample,
                           uint dimension, uint count, __global float2* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     const uint sample = first_sample + id;
-    const Sampler s = make_sampler(kind, seed, log2_samples, strata, pixel, sample);
-    out[id] = dimension == WEDGE_DIMENSION_FILM ? draw_film(&s, seed, log2_samples, pixel, sample)
+    const Sampler s = make_sampler(kind, seed, sequences, strata, pixel, sample);
+    out[id] = dimension == WEDGE_DIMENSION_FILM ? draw_film(&s, seed, sequences, pixel, sample)
                                                 : draw_2d(&s, dimension);
 }
 
@@ -30,7 +30,7 @@ __kernel void sample_bsdf_directions(float4 parameters, float4 wo, uint seed, ui
     const uint id = get_global_id(0);
     if (id >= count) return;
     const Bsdf f = test_bsdf(parameters);
-    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 1u, 0u, id);
+    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 1, 1u, 0u, id);
     const float3 n = (float3)(0.0f, 0.0f, 1.0f);
     const float3 wi = sample_bsdf(&f, n, wo.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
     float pdf;
@@ -57,7 +57,7 @@ __kernel void sample_light_points(__global const Light* lights, uint light_count
     Scene scene; /* sampling a light reads nothing but the lights */
     scene.lights = lights;
     scene.light_count = light_count;
-    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 0, 1u, 0u, id);
+    const Sampler s = make_sampler(WEDGE_SAMPLER_HASH, seed, 1, 1u, 0u, id);
     const LightSample light = sample_light(&scene, 0, from.xyz, draw_2d(&s, 0).x, draw_2d(&s, 1));
     out[id] = (float4)(light.position, light.pdf);
 }

@@ -23,10 +23,10 @@ std::vector<T> SamplingKernels::run(const char* name, uint32_t count, const Args
     return out;
 }
 
-std::vector<float2> SamplingKernels::points(int sampler, uint32_t seed, int log2_samples,
+std::vector<float2> SamplingKernels::points(int sampler, uint32_t seed, int sequences,
                                             uint32_t pixel, uint32_t first_sample,
                                             uint32_t dimension, uint32_t count, uint32_t strata) {
-    return run<float2>("draw_points", count, cl_int(sampler), seed, cl_int(log2_samples), strata,
+    return run<float2>("draw_points", count, cl_int(sampler), seed, cl_int(sequences), strata,
                        pixel, first_sample, dimension, count);
 }
 

@@ -20,8 +20,8 @@ class SamplingKernels {
     SamplingKernels();
 
     /// kernels/lib/random.clh
-    /// `strata` counts for WEDGE_SAMPLER_STRATIFIED, `log2_samples` for WEDGE_SAMPLER_SOBOL.
-    std::vector<float2> points(int sampler, uint32_t seed, int log2_samples, uint32_t pixel,
+    /// `strata` counts for WEDGE_SAMPLER_STRATIFIED, `sequences`, 1 or 2, for WEDGE_SAMPLER_SOBOL.
+    std::vector<float2> points(int sampler, uint32_t seed, int sequences, uint32_t pixel,
                                uint32_t first_sample, uint32_t dimension, uint32_t count,
                                uint32_t strata = 1);
     /// Directions and weights f cos / pdf; `parameters`: diffuse, specular, exponent, model.

@@ -145,7 +145,7 @@ TEST_CASE("few_samples_stop_the_rise_of_mu") {
     RenderOptions options = with_target(1e-9);
     options.samples_per_pixel = 16;
     CHECK(render(make_penumbra(LightProfile::uniform), options).stats.mu == 1);
-    options.samples_per_pixel = 150;
+    options.samples_per_pixel = 192;
     CHECK(render(make_penumbra(LightProfile::uniform), options).stats.mu == 1.5);
 }
 

@@ -30,72 +30,71 @@ bool is_net(const std::vector<float2>& points, int m) {
     return true;
 }
 
+/// Every second one, from the first or the second on.
+std::vector<float2> every_second(const std::vector<float2>& points, std::size_t first) {
+    std::vector<float2> half;
+    for (std::size_t i = first; i < points.size(); i += 2) half.push_back(points[i]);
+    return half;
+}
+
+void append(std::vector<float2>& all, const std::vector<float2>& points) {
+    all.insert(all.end(), points.begin(), points.end());
+}
+
 TEST_CASE("sobol_points_of_a_pixel_are_a_net") {
     SamplingKernels kernels;
     for (uint32_t dimension : {0u, 1u, 7u})
         for (uint32_t pixel : {0u, 1u, 12345u, 0xffffffffu})
-            for (int m : {0, 1, 2, 4, 6, 10})
+            for (int m : {0, 1, 2, 3, 4, 5, 6, 10})
                 CHECK(is_net(
-                    kernels.points(WEDGE_SAMPLER_SOBOL, 3, m, pixel, 0, dimension, 1u << m), m));
+                    kernels.points(WEDGE_SAMPLER_SOBOL, 3, 1, pixel, 0, dimension, 1u << m), m));
 }
 
-TEST_CASE("sobol_prefixes_of_a_pixel_are_nets") {
+TEST_CASE("aligned_stretches_of_sobol_points_are_nets") {
     SamplingKernels kernels;
-    // Stopped early at any power of two, and every aligned stretch after it.
     for (int m : {2, 4, 6})
         for (uint32_t first : {0u, 64u, 960u})
-            CHECK(is_net(kernels.points(WEDGE_SAMPLER_SOBOL, 9, 10, 77, first, 2, 1u << m), m));
+            CHECK(is_net(kernels.points(WEDGE_SAMPLER_SOBOL, 9, 1, 77, first, 2, 1u << m), m));
 }
 
-TEST_CASE("doubling_stretches_are_nets") {
+TEST_CASE("halves_are_nets_that_know_nothing_of_each_other") {
     SamplingKernels kernels;
-    const auto stretch = [&](uint32_t pixel, uint32_t first, uint32_t count) {
-        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, WEDGE_DOUBLING_FROM(3), pixel, first, 4,
-                              count);
+    const auto points = [&](uint32_t pixel, int m) {
+        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, 2, pixel, 0, 4, 2u << m);
     };
-    for (int m : {3, 4, 5, 7}) {
-        CHECK(is_net(stretch(77, 1u << m, 1u << m), m));
-        std::vector<float2> all;  // with the neighbours, too
-        for (uint32_t i = 0; i < 16; ++i) {
-            const auto points = stretch(48 + i, 1u << m, 1u << m);
-            all.insert(all.end(), points.begin(), points.end());
+    for (int m : {2, 3, 4, 7})
+        for (std::size_t half : {0, 1}) {
+            CHECK(is_net(every_second(points(77, m), half), m));
+            std::vector<float2> all;
+            for (uint32_t i = 0; i < 16; ++i) append(all, every_second(points(48 + i, m), half));
+            CHECK(is_net(all, m + 4));
         }
-        CHECK(is_net(all, m + 4));
-    }
-    CHECK(is_net(stretch(77, 0, 8), 3));
-    // Stretches are scrambled independently: together, the first two are no net.
-    CHECK_FALSE(is_net(stretch(77, 0, 16), 4));
+    CHECK_FALSE(is_net(points(77, 4), 5));
 }
 
 TEST_CASE("places_in_a_pixel_are_of_one_sequence_however_many_they_become") {
     SamplingKernels kernels;
     const auto places = [&](uint32_t pixel, uint32_t first, uint32_t count) {
-        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, WEDGE_DOUBLING_FROM(2), pixel, first,
-                              kFilmDimension, count);
+        return kernels.points(WEDGE_SAMPLER_SOBOL, 5, 2, pixel, first, kFilmDimension, count);
     };
     for (uint32_t pixel : {0u, 77u, 0xffffffffu})
-        for (int m : {2, 3, 4, 6}) {
-            CHECK(is_net(places(pixel, 0, 1u << m), m));
-            CHECK(is_net(places(pixel, 1u << m, 1u << m), m));  // the second half alone
-        }
+        for (int m : {2, 3, 4, 6}) CHECK(is_net(places(pixel, 0, 1u << m), m));
     // Neighbours look at places of their own.
     CHECK(places(77, 0, 1)[0].x != places(78, 0, 1)[0].x);
     CHECK(places(0, 0, 1)[0].x != places(0x80000000u, 0, 1)[0].x);
 }
 
-TEST_CASE("sobol_points_of_neighbouring_pixels_are_a_net_together") {
+TEST_CASE("first_sobol_points_of_a_block_of_pixels_are_a_net_however_many_they_are") {
     SamplingKernels kernels;
-    for (int m : {2, 4}) {             // 4 and 16 samples a pixel
-        for (int block : {2, 4, 6}) {  // over 2x2, 4x4, 8x8 pixels
-            std::vector<float2> all;
-            for (uint32_t i = 0; i < 1u << block; ++i) {
-                const auto points =
-                    kernels.points(WEDGE_SAMPLER_SOBOL, 5, m, (3u << block) + i, 0, 4, 1u << m);
-                all.insert(all.end(), points.begin(), points.end());
+    for (uint32_t block : {0u, 3u, 0x2aau, 0x3ffffffu})
+        for (int m : {2, 3, 4, 5})          // 4 to 32 samples a pixel
+            for (int pixels : {2, 4, 6}) {  // over 2x2, 4x4, 8x8 pixels
+                std::vector<float2> all;
+                for (uint32_t i = 0; i < 1u << pixels; ++i)
+                    append(all, kernels.points(WEDGE_SAMPLER_SOBOL, 5, 1, (block << pixels) + i, 0,
+                                               4, 1u << m));
+                CHECK(is_net(all, m + pixels));
             }
-            CHECK(is_net(all, m + block));
-        }
-    }
 }
 
 TEST_CASE("strata_hold_one_sample_each") {
@@ -108,7 +107,7 @@ TEST_CASE("strata_hold_one_sample_each") {
             for (uint32_t first : {0u, grid.strata}) {
                 std::vector<int> hits(grid.columns * grid.rows, 0);
                 int twice = 0;
-                for (const float2& p : kernels.points(WEDGE_SAMPLER_STRATIFIED, 3, 0, 17, first,
+                for (const float2& p : kernels.points(WEDGE_SAMPLER_STRATIFIED, 3, 1, 17, first,
                                                       dimension, grid.strata, grid.strata)) {
                     const auto column = std::size_t(p.x * float(grid.columns));
                     const auto row = std::size_t(p.y * float(grid.rows));
@@ -126,9 +125,9 @@ TEST_CASE("strata_of_two_dimensions_are_paired_at_random") {
     std::vector<double> observed(kSide * kSide, 0.0);
     for (uint32_t pixel = 0; pixel < 400; ++pixel) {
         const auto a =
-            kernels.points(WEDGE_SAMPLER_STRATIFIED, 1, 0, pixel, 0, 2, kStrata, kStrata);
+            kernels.points(WEDGE_SAMPLER_STRATIFIED, 1, 1, pixel, 0, 2, kStrata, kStrata);
         const auto b =
-            kernels.points(WEDGE_SAMPLER_STRATIFIED, 1, 0, pixel, 0, 3, kStrata, kStrata);
+            kernels.points(WEDGE_SAMPLER_STRATIFIED, 1, 1, pixel, 0, 3, kStrata, kStrata);
         for (std::size_t i = 0; i < a.size(); ++i)
             observed[std::size_t(a[i].x * kSide) * kSide + std::size_t(b[i].x * kSide)] += 1;
     }
@@ -145,7 +144,7 @@ double disc_error(SamplingKernels& kernels, uint32_t first, uint32_t count) {
     for (uint32_t pixel = 0; pixel < kPixels; ++pixel) {
         int inside = 0;
         for (const float2& p :
-             kernels.points(WEDGE_SAMPLER_LATTICE, 1, 0, pixel, first, pixel % 7, count))
+             kernels.points(WEDGE_SAMPLER_LATTICE, 1, 1, pixel, first, pixel % 7, count))
             inside += std::hypot(p.x - 0.5, p.y - 0.5) < kRadius;
         const double error = inside / double(count) - kArea;
         sum += error * error;
@@ -167,11 +166,11 @@ TEST_CASE("lattice_points_find_an_area_sooner_than_independent_ones") {
 TEST_CASE("seeds_pixels_and_dimensions_give_different_points") {
     SamplingKernels kernels;
     for (int sampler : kSamplers) {
-        const float2 p = kernels.points(sampler, 1, 6, 10, 0, 0, 1)[0];
-        for (const float2& q : {kernels.points(sampler, 2, 6, 10, 0, 0, 1)[0],
-                                kernels.points(sampler, 1, 6, 11, 0, 0, 1)[0],
-                                kernels.points(sampler, 1, 6, 10, 0, 1, 1)[0],
-                                kernels.points(sampler, 1, 6, 10, 64, 0, 1)[0]})
+        const float2 p = kernels.points(sampler, 1, 1, 10, 0, 0, 1)[0];
+        for (const float2& q : {kernels.points(sampler, 2, 1, 10, 0, 0, 1)[0],
+                                kernels.points(sampler, 1, 1, 11, 0, 0, 1)[0],
+                                kernels.points(sampler, 1, 1, 10, 0, 1, 1)[0],
+                                kernels.points(sampler, 1, 1, 10, 64, 0, 1)[0]})
             CHECK((p.x != q.x || p.y != q.y));
     }
 }
@@ -187,7 +186,7 @@ TEST_CASE("points_are_uniform_over_the_square") {
             const uint32_t samples = sampler == WEDGE_SAMPLER_HASH ? count : 1;
             for (uint32_t i = 0; i < (sampler == WEDGE_SAMPLER_HASH ? 1 : 20); ++i)
                 for (const float2& p :
-                     kernels.points(sampler, seed, 0, i * 977, 0, seed % 5, samples)) {
+                     kernels.points(sampler, seed, 1, i * 977, 0, seed % 5, samples)) {
                     REQUIRE((p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1));
                     observed[int(p.y * kSide) * kSide + int(p.x * kSide)] += 1;
                 }
@@ -204,8 +203,8 @@ TEST_CASE("dimension_pairs_are_not_correlated") {
     constexpr uint32_t kCount = 1u << 14;
     for (int sampler : {WEDGE_SAMPLER_HASH, WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_LATTICE})
         for (uint32_t dimension = 1; dimension < 6; ++dimension) {
-            const auto a = kernels.points(sampler, 1, 14, 5, 0, 0, kCount);
-            const auto b = kernels.points(sampler, 1, 14, 5, 0, dimension, kCount);
+            const auto a = kernels.points(sampler, 1, 1, 5, 0, 0, kCount);
+            const auto b = kernels.points(sampler, 1, 1, 5, 0, dimension, kCount);
             double sum = 0;
             for (uint32_t i = 0; i < kCount; ++i) sum += (a[i].x - 0.5) * (b[i].x - 0.5);
             // Standard deviation of the correlation of independent pairs: 1 / sqrt(n).

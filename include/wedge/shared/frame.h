@@ -19,8 +19,6 @@ WEDGE_ASSERT_SIZE(CameraRays, 64);
 #define WEDGE_SAMPLER_STRATIFIED 2
 #define WEDGE_SAMPLER_LATTICE 3
 
-#define WEDGE_DOUBLING_FROM(k) (-(k)) /* k > 0; kernels/lib/random.clh */
-
 typedef struct FrameParams {
     CameraRays camera;
     float4 background; /* rgb radiance */
@@ -28,8 +26,7 @@ typedef struct FrameParams {
     int crop_x, crop_y, crop_width, crop_height;
     uint seed;
     int sampler;
-    int log2_samples; /* samples a pixel takes from one stretch of the Sobol sequence, or
-                         WEDGE_DOUBLING_FROM(k) */
+    int sequences; /* of the Sobol sampler: 1, or 2 where even and odd samples are told apart */
     int bounces;
     int search_lights; /* 1: there is light that sampling finds badly or not at all: background,
                           meshes */
