@@ -107,16 +107,13 @@ void Device::prefer_large_pages(const cl::Buffer& buffer, uint64_t bytes) {
     }
 }
 
-cl::Buffer Device::allocate_zeros(uint64_t bytes, const std::string& what) {
-    cl::Buffer buffer = allocate(bytes, what);
-    if (bytes == 0) return buffer;
-    try {
-        queue_.enqueueFillBuffer(buffer, cl_uchar(0), 0, bytes);
-    } catch (const cl::Error& error) {
-        throw_status(info_.name, fmt::format("clear {:.1f} MiB for {}", mebibytes(bytes), what),
-                     error.err());
-    }
-    return buffer;
+void Device::fill(const cl::Buffer& buffer, const void* pattern, std::size_t pattern_bytes,
+                  uint64_t bytes, const std::string& what) {
+    const cl_int status = clEnqueueFillBuffer(queue_(), buffer(), pattern, pattern_bytes, 0, bytes,
+                                              0, nullptr, nullptr);
+    if (status != CL_SUCCESS)
+        throw_status(info_.name, fmt::format("fill {:.1f} MiB for {}", mebibytes(bytes), what),
+                     status);
 }
 
 cl::Buffer Device::upload_bytes(const void* data, uint64_t bytes, const std::string& what,

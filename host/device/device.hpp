@@ -36,7 +36,16 @@ class Device {
                         cl_mem_flags flags = CL_MEM_READ_WRITE);
 
     /// The same, all bits 0.
-    cl::Buffer allocate_zeros(uint64_t bytes, const std::string& what);
+    cl::Buffer allocate_zeros(uint64_t bytes, const std::string& what) {
+        return allocate_filled(bytes, cl_uchar(0), what);
+    }
+    /// The same, filled with copies of `pattern`; its size is a power of two, at most 128 bytes.
+    template <typename T>
+    cl::Buffer allocate_filled(uint64_t bytes, const T& pattern, const std::string& what) {
+        cl::Buffer buffer = allocate(bytes, what);
+        if (bytes > 0) fill(buffer, &pattern, sizeof(pattern), bytes, what);
+        return buffer;
+    }
 
     /// Allocates and fills; kernels may only read it, unless `flags` say otherwise.
     template <typename T>
@@ -63,6 +72,9 @@ class Device {
     uint64_t allocated_bytes() const { return allocated_bytes_; }
 
   private:
+    void fill(const cl::Buffer& buffer, const void* pattern, std::size_t pattern_bytes,
+              uint64_t bytes, const std::string& what);
+
     /// Where the device's memory is the host's: rays jump about in it, and large pages take less
     /// time to be found and to be had.
     void prefer_large_pages(const cl::Buffer& buffer, uint64_t bytes);

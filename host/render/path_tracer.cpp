@@ -96,9 +96,7 @@ void PathTracer::upload_frame(const Rect& crop) {
     frame_.crop_height = crop.height;
     params_ = device_.upload_bytes(&frame_, sizeof(frame_), "frame parameters");
     film_ = cl::Buffer();  // two at a time may be too much
-    const std::vector<shared::FilmPixel> black(pixel_count_);
-    film_ = device_.upload_bytes(black.data(), black.size() * sizeof(black[0]), "film",
-                                 CL_MEM_READ_WRITE);
+    film_ = device_.allocate_zeros(pixel_count_ * sizeof(shared::FilmPixel), "film");
 }
 
 void PathTracer::move_to(const Rect& crop) {

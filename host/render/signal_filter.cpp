@@ -171,12 +171,16 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     std::vector<uint32_t> all(pixels);
     std::iota(all.begin(), all.end(), 0u);
     pixel_list_ = upload(all, "list of pixels");
-    surface_sums_ = upload(std::vector<shared::SurfaceSum>(surfaces), "surfaces of pixels");
-    sums_ = upload(std::vector<shared::float4>(2 * entries), "signals");
+    const auto zeros = [&](uint64_t count, uint64_t item_bytes, const char* what) {
+        return device_.allocate_zeros(count * item_bytes, what);
+    };
+    surface_sums_ = zeros(surfaces, sizeof(shared::SurfaceSum), "surfaces of pixels");
+    sums_ = zeros(2 * entries, sizeof(shared::float4), "signals");
     const shared::DistanceRange nothing{INFINITY, 0, 0, 0};
-    distances_ = upload(std::vector<shared::DistanceRange>(entries, nothing), "distances");
-    reflected_ = upload(std::vector<shared::float4>(surfaces * lights_), "unshadowed light");
-    unfiltered_ = upload(std::vector<shared::HalfLight>(pixels), "unfiltered light");
+    distances_ =
+        device_.allocate_filled(entries * sizeof(shared::DistanceRange), nothing, "distances");
+    reflected_ = zeros(surfaces * lights_, sizeof(shared::float4), "unshadowed light");
+    unfiltered_ = zeros(pixels, sizeof(shared::HalfLight), "unfiltered light");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     allocate_planes();
     light_ = device_.allocate(WEDGE_SCALES * pixels * sizeof(shared::HalfLight), "filtered light");
