@@ -60,6 +60,21 @@ TEST_CASE("refused_allocation_ends_with_a_named_error_wherever_it_is") {
     CHECK(refused > 3);
 }
 
+TEST_CASE("buffers_that_cannot_be_cleared_end_with_a_named_error") {
+    const Workbench bench;
+    write_room(bench);
+    for (int call : {1, 4, 8}) {
+        CAPTURE(call);
+        const ProcessResult result =
+            bench.wedge(render_with({"--method", "aaf"}), failing("clEnqueueFillBuffer", call, -5));
+        CAPTURE(result.err);
+        CHECK(result.exit_code == kDeviceError);
+        CHECK(result.err_has(" cannot fill "));
+        CHECK(result.err_has("CL_OUT_OF_RESOURCES"));
+        CHECK(!bench.has("a.exr"));
+    }
+}
+
 TEST_CASE("refused_kernel_build_names_kernel_and_status") {
     const Workbench bench;
     write_room(bench);

@@ -97,6 +97,41 @@ TEST_CASE("first_sobol_points_of_a_block_of_pixels_are_a_net_however_many_they_a
             }
 }
 
+/// Chi-square over its degrees of freedom, of the coarse cells of two dimensions that the first
+/// samples of a block of pixels fall into: 1 for independent pairs.
+double pairing_excess(SamplingKernels& kernels, uint32_t a, uint32_t b, uint32_t samples) {
+    constexpr uint32_t kPixels = 64, kSeeds = 40, kSide = 4, kCells = kSide * kSide;
+    double sum = 0;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+        std::vector<double> hits(kCells, 0.0);
+        for (uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+            const auto p = kernels.points(WEDGE_SAMPLER_SOBOL, seed, 1, pixel, 0, a, samples);
+            const auto q = kernels.points(WEDGE_SAMPLER_SOBOL, seed, 1, pixel, 0, b, samples);
+            for (std::size_t i = 0; i < p.size(); ++i)
+                hits[std::size_t(p[i].x * kSide) * kSide + std::size_t(q[i].x * kSide)] += 1;
+        }
+        const double expected = double(kPixels * samples) / kCells;
+        for (double h : hits) sum += (h - expected) * (h - expected) / expected;
+    }
+    // Rows and columns are even by themselves.
+    return sum / (kSeeds * (kSide - 1) * (kSide - 1));
+}
+
+// Dimensions whose points go together would leave noise that neighbours share. Two pixels or
+// samples next to each other in a tree stay so in all of its shuffles: that alone makes up to 2 of
+// it.
+TEST_CASE("sobol_dimension_pairs_of_neighbouring_pixels_are_paired_at_random") {
+    SamplingKernels kernels;
+    for (uint32_t samples : {1u, 4u, 8u})
+        for (uint32_t b : {2u, 3u, 4096u}) {
+            const double excess = pairing_excess(kernels, 1, b, samples);
+            CAPTURE(samples);
+            CAPTURE(b);
+            CAPTURE(excess);
+            CHECK(excess < 2);
+        }
+}
+
 TEST_CASE("strata_hold_one_sample_each") {
     SamplingKernels kernels;
     struct Grid {

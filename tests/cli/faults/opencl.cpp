@@ -51,6 +51,12 @@ WEDGE_FAULTY(clEnqueueNDRangeKernel,
               const cl_event* events, cl_event* event),
              queue, kernel, dimensions, offset, global, local, event_count, events, event)
 
+WEDGE_FAULTY(clEnqueueFillBuffer,
+             (cl_command_queue queue, cl_mem buffer, const void* pattern, size_t pattern_bytes,
+              size_t offset, size_t bytes, cl_uint event_count, const cl_event* events,
+              cl_event* event),
+             queue, buffer, pattern, pattern_bytes, offset, bytes, event_count, events, event)
+
 WEDGE_FAULTY(clWaitForEvents, (cl_uint count, const cl_event* events), count, events)
 
 WEDGE_FAULTY(clEnqueueReadBuffer,
