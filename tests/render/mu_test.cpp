@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "filter_scenes.hpp"
+#include "host/render/signal_filter.hpp"
 
 namespace wedge::test {
 namespace {
@@ -168,6 +169,22 @@ TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
         const auto spp = channel_values(render(scene, filtered(mu)).image, "spp");
         CHECK(*std::min_element(spp.begin(), spp.end()) == least);
     }
+}
+
+// docs/cli.md, at --spp.
+TEST_CASE("most_samples_are_powers_of_two_that_rise_with_mu") {
+    const Scene scene = make_room(0);
+    const auto most = [&](float mu, std::optional<int> samples = {}) {
+        RenderOptions options = filtered(mu);
+        options.samples_per_pixel = samples;
+        return rendering::make_filter_settings(scene, options, mu).max_samples;
+    };
+    CHECK(most(0.25f) == 128);
+    CHECK(most(1) == 128);
+    CHECK(most(2) == 256);
+    CHECK(most(3) == 512);  // nearest in the logarithm
+    CHECK(most(8) == 1024);
+    CHECK(most(8, 100) == 100);
 }
 
 }  // namespace
