@@ -65,9 +65,9 @@ struct RenderOptions {
     Sampler sampler = Sampler::sobol;
     Method method = Method::mc;
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
-    /// samples_per_pixel then is the most a pixel gets, by default 100 * max(1, mu). With a time
-    /// limit or a target error this is the most that mu rises to, by default 10000, or where
-    /// samples are limited samples_per_pixel / 100 or 1; else 1 by default.
+    /// samples_per_pixel then is the most a pixel gets, by default 128 * max(1, mu), rounded
+    /// to a power of two. With a time limit or a target error this is the most that mu rises to, by
+    /// default 10000, or where samples are limited samples_per_pixel / 128 or 1; else 1 by default.
     std::optional<float> mu;
     FilterMode filter = FilterMode::guarded;  ///< aaf
     /// aaf: false gives every pixel the same number of samples, samples_per_pixel or the probe's.
