@@ -203,7 +203,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         /* The last vertex goes on only to look for light that sampling finds badly or never. */
         const bool goes_on =
             depth < bounces || f.specular_chance > 0.0f || params->search_lights != 0;
-        const float2 choice = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE));
+        const float2 choice =
+            goes_on || scene->light_count > 1
+                ? draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE))
+                : (float2)(0.0f);
         float3 direct = (float3)(0.0f);
         uint first_light = 0;
 #if WEDGE_SHADOW_LIGHTS > 0
