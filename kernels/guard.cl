@@ -4,11 +4,14 @@
    square of their difference tells noise. Bias is told by how the mean drifts from one width of the
    filter to the next wider one: the drifts of both halves have the same mean, and their product has
    the square of it as its own, free of noise (the dual buffers of Rousselle, Knaus, Zwicker 2012,
-   but between neighbouring widths, as in Lepski's choice of a bandwidth, 1991). The narrowest
-   "filter" is the pixel's own samples, which have no bias, so that the drifts add up to the bias;
-   and each is known as well as what the narrower of two filters gives is free of noise. A rare
-   bright sample in one half cancels. What no filter can change, coverage of pixels by surfaces, is
-   alike in all and does not count.
+   but between neighbouring widths, as in Lepski's choice of a bandwidth, 1991). Each is known as well
+   as what the narrower of two filters gives is free of noise. A rare bright sample in one half
+   cancels. The narrowest "filter" leaves surfaces to the pixel's own samples. What no filter can
+   change, coverage of the pixel by surfaces, is alike in all and does not count.
+
+   All of them multiply mean light by mean colour, which is not the mean of the product where light
+   and colour vary together within a surface of a pixel. Radiance as it was sampled, by paths alone,
+   has no such bias, and no other: drifts from there on add up to the bias of each filter.
 
      guard_errors      noise and drifts of each pixel
      guard_smooth_x, guard_smooth_y   their means over neighbours
@@ -34,13 +37,32 @@ inline float drift_of(__global const float4* wide, __global const float4* narrow
 /* float4 from one pixel's HalfLight to the same of the next scale. */
 #define WEDGE_STRIDE(count) ((count) * (uint)(sizeof(HalfLight) / sizeof(float4)))
 
-inline ScaleErrors errors_of(__global const float4* light, uint stride) {
+/* `plain`: radiance as sampled, of both halves. */
+inline ScaleErrors errors_of(const float4* plain, __global const float4* light, uint stride) {
     __global const float4 *a = light, *b = a + stride, *c = b + stride, *d = c + stride;
     ScaleErrors e;
+    const float4 difference = plain[0] - plain[1];
+    const float drift = dot_rgb(a[0] - plain[0], a[1] - plain[1]);
+    e.plain = (float4)(0.25f * dot_rgb(difference, difference), drift, 0.0f, 0.0f);
     e.noise = (float4)(noise_of(a), noise_of(b), noise_of(c), noise_of(d));
     const float first = drift_of(b, a);
     e.drift = (float4)(first * first, first, drift_of(c, b), drift_of(d, c));
     return e;
+}
+
+inline ScaleErrors no_errors(void) {
+    const ScaleErrors none = {(float4)(0.0f), (float4)(0.0f), (float4)(0.0f)};
+    return none;
+}
+
+inline ScaleErrors add_errors(ScaleErrors a, ScaleErrors b) {
+    const ScaleErrors sum = {a.noise + b.noise, a.drift + b.drift, a.plain + b.plain};
+    return sum;
+}
+
+inline ScaleErrors scale_errors(ScaleErrors e, float share) {
+    const ScaleErrors scaled = {e.noise * share, e.drift * share, e.plain * share};
+    return scaled;
 }
 
 /* A render that was stopped early has pixels without a second half. They know nothing: what their
@@ -51,10 +73,14 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
     const uint id = get_global_id(0);
     if (id >= count) return;
     FilterErrors e;
-    e.direct.noise = e.direct.drift = e.indirect.noise = e.indirect.drift = (float4)(0.0f);
-    if (unfiltered[id].direct[1].w > 0.0f) {
-        e.direct = errors_of(light[id].direct, WEDGE_STRIDE(count));
-        e.indirect = errors_of(light[id].indirect, WEDGE_STRIDE(count));
+    e.direct = e.indirect = no_errors();
+    __global const HalfLight* u = unfiltered + id;
+    const float n0 = u->direct[0].w, n1 = u->direct[1].w;
+    if (n1 > 0.0f) {
+        const float4 direct[2] = {u->direct[0] / n0, u->direct[1] / n1};
+        const float4 indirect[2] = {u->indirect[0] / n0, u->indirect[1] / n1};
+        e.direct = errors_of(direct, light[id].direct, WEDGE_STRIDE(count));
+        e.indirect = errors_of(indirect, light[id].indirect, WEDGE_STRIDE(count));
     }
     errors[id] = e;
 }
@@ -65,20 +91,16 @@ __kernel void guard_errors(__global const HalfLight* restrict unfiltered,
 inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,
                                 int before, int after) {
     FilterErrors sum;
-    sum.direct.noise = sum.direct.drift = sum.indirect.noise = sum.indirect.drift = (float4)(0.0f);
+    sum.direct = sum.indirect = no_errors();
     const int begin = -min(before, WEDGE_GUARD_RADIUS), end = min(after, WEDGE_GUARD_RADIUS);
     for (int i = begin; i <= end; ++i) {
-        __global const FilterErrors* e = errors + first + i * stride;
-        sum.direct.noise += e->direct.noise;
-        sum.direct.drift += e->direct.drift;
-        sum.indirect.noise += e->indirect.noise;
-        sum.indirect.drift += e->indirect.drift;
+        const FilterErrors e = errors[first + i * stride];
+        sum.direct = add_errors(sum.direct, e.direct);
+        sum.indirect = add_errors(sum.indirect, e.indirect);
     }
     const float share = 1.0f / (float)(end - begin + 1);
-    sum.direct.noise *= share;
-    sum.direct.drift *= share;
-    sum.indirect.noise *= share;
-    sum.indirect.drift *= share;
+    sum.direct = scale_errors(sum.direct, share);
+    sum.indirect = scale_errors(sum.indirect, share);
     return sum;
 }
 
@@ -121,8 +143,8 @@ inline float next_drift(float product, float narrow_noise, float wide_noise, flo
 inline float4 estimated_errors(ScaleErrors e, float first_doubt, float next_doubt) {
     const float4 n = e.noise;
     float4 bias;
-    bias.x = 0.0f;
-    bias.y = first_drift(e.drift, first_doubt);
+    bias.x = sqrt(fmax(e.plain.y, 0.0f));
+    bias.y = bias.x + first_drift(e.drift, first_doubt);
     bias.z = bias.y + next_drift(e.drift.z, n.y, n.z, next_doubt);
     bias.w = bias.z + next_drift(e.drift.w, n.z, n.w, next_doubt);
     return n + bias * bias;
@@ -133,9 +155,10 @@ inline float4 mean_of_halves(__global const float4* light) {
 }
 
 /* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so
-   the mean of a filter and none weighted by the errors is better than both. */
+   the mean of a filter and none weighted by the errors is better than both. None is what has the
+   least error, the pixel's own samples or its plain radiance (`unfiltered`). */
 inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride,
-                     float* error) {
+                     float4 unfiltered, float* error) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
     const float4 errors = estimated_errors(estimates, WEDGE_FIRST_DOUBT, doubt);
     const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
@@ -144,10 +167,12 @@ inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* 
     int best = WEDGE_SCALES - 1;
     for (int k = WEDGE_SCALES - 2; k > 0; --k)
         if (by_scale[k] < by_scale[best]) best = k;
-    const float noise = by_scale[0], filter_error = by_scale[best];
-    const float share = filter_error > 0.0f ? noise / (noise + filter_error) : 1.0f;
-    *error = share * share * told[best] + (1.0f - share) * (1.0f - share) * noise;
-    const float4 none = mean_of_halves(light), filtered = mean_of_halves(light + best * stride);
+    const bool is_plain = estimates.plain.x < errors.x;
+    const float none_error = fmin(estimates.plain.x, errors.x), filter_error = by_scale[best];
+    const float share = filter_error > 0.0f ? none_error / (none_error + filter_error) : 1.0f;
+    *error = share * share * told[best] + (1.0f - share) * (1.0f - share) * none_error;
+    const float4 none = is_plain ? unfiltered : mean_of_halves(light);
+    const float4 filtered = mean_of_halves(light + best * stride);
     return (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share);
 }
 
@@ -157,7 +182,7 @@ inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors es
                              float* error) {
     const int mode = settings->mode;
     if (mode == WEDGE_FILTER_MODE_GUARDED)
-        return choose(settings->doubt, estimates, light, stride, error);
+        return choose(settings->doubt, estimates, light, stride, unfiltered, error);
     const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
     const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
     *error = plain ? errors.w : errors.x;

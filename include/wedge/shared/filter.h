@@ -72,13 +72,15 @@ typedef struct ScaleErrors {
     float4 noise; /* mean square, of the mean of both halves */
     float4 drift; /* y, z, w: square of what the filter adds to the bias of the next narrower one;
                      x: y's own square, of a pixel before it is smoothed */
+    float4 plain; /* of the pixel's radiance as it was sampled; x: noise; y: square of the drift
+                     from it to the first scale; z, w: 0 */
 } ScaleErrors;
-WEDGE_ASSERT_SIZE(ScaleErrors, 32);
+WEDGE_ASSERT_SIZE(ScaleErrors, 48);
 
 typedef struct FilterErrors {
     ScaleErrors direct, indirect;
 } FilterErrors;
-WEDGE_ASSERT_SIZE(FilterErrors, 64);
+WEDGE_ASSERT_SIZE(FilterErrors, 96);
 
 /* What the guard made of a pixel. */
 typedef struct GuardedPixel {
