@@ -225,7 +225,7 @@ __kernel void filter_bandwidth(
     const int x = pixel % width, y = pixel / width;
     const ulong at = pixel_at(&planes, x, y);
     const float seen = fmax(film[pixel].normal.w, 1.0f);
-    const float own = brightness(film + pixel);
+    const float own = brightness(film + pixel) - mean_emission(film + pixel);
     const float bright = fmax(own * own + mean_brightness * mean_brightness, 1e-30f);
     float samples = 0.0f;
     for (int k = 0; k < WEDGE_SURFACES; ++k) {

@@ -283,6 +283,30 @@ TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
     CHECK(samples[samples.size() / 4] == WEDGE_LIGHT_PROBES);  // only there
 }
 
+TEST_CASE("what_shines_is_sampled_for_what_it_reflects") {
+    // A plate in a penumbra: that it shines as well makes the light that it reflects no less noisy.
+    const auto samples_on_plate = [](float emission) {
+        Scene scene = make_penumbra(LightProfile::uniform);
+        scene.materials.push_back(lambert(0.6f));
+        scene.materials.back().emission = Vec3(emission);
+        scene.meshes.push_back(make_quad({0.3f, 0.001f, 0.2f}, {0, 0, 0.6f}, {0.3f, 0, 0}, 1));
+        scene.instances.push_back({.mesh = 2});
+        const Image image = render(scene, filtered(4)).image;
+        const auto albedo = channel_values(image, "albedo.G"), spp = channel_values(image, "spp");
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < spp.size(); ++i)
+            if (std::abs(albedo[i] - 0.6) < 1e-4) {
+                sum += spp[i];
+                ++count;
+            }
+        REQUIRE(count >= 4);
+        return sum / count;
+    };
+    const double dark = samples_on_plate(0);
+    CHECK(dark > 4 * WEDGE_LIGHT_PROBES);
+    CHECK(samples_on_plate(20) > 0.5 * dark);
+}
+
 TEST_CASE("filtered_images_do_not_depend_on_work_groups_or_tiles") {
     const Scene scene = make_penumbra(LightProfile::uniform);
     const Image reference = render(scene, filtered(1)).image;
