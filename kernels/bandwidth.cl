@@ -218,7 +218,7 @@ __kernel void filter_bandwidth(
     __global const float* restrict places, __global const float* restrict near_by,
     __global const float* restrict ends, __global const float4* restrict reflected,
     __global float* restrict sigmas, __global SampleEnds* restrict sample_ends,
-    __global const HalfLight* restrict unfiltered, int width, int height, float mean_brightness) {
+    __global const SampledLight* restrict unfiltered, int width, int height, float mean_brightness) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
@@ -247,9 +247,8 @@ __kernel void filter_bandwidth(
         }
         if (most > 0.0f) samples += most * surface_sums[id].position.w / seen;
     }
-    samples = fmax(
-        samples,
-        noise_samples(settings->mu, rest_variance(unfiltered, x, y, width, height) / bright, 1.0f));
+    const RestNoise rest = rest_noise_at(unfiltered, x, y, width, height);
+    samples = fmax(samples, noise_samples(settings->mu, rest.of_sample / bright, 1.0f));
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
     const float least = (float)settings->least_samples;
     const float power = nearest_power_of_two(clamp(samples, probes, cap));

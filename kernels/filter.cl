@@ -42,7 +42,7 @@ inline float8 get_means(const Planes* planes, __global const float* means, int s
 }
 
 /* Surfaces that are not there keep means of 0. */
-__kernel void filter_means(__global const HalfLight* restrict unfiltered,
+__kernel void filter_means(__global const SampledLight* restrict unfiltered,
                            __global const float* restrict places, __global const float4* restrict sums,
                            __global float* restrict means, int width, int height) {
     const int pixel = (int)get_global_id(0);

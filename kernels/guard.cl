@@ -67,14 +67,14 @@ inline ScaleErrors scale_errors(ScaleErrors e, float share) {
 
 /* A render that was stopped early has pixels without a second half. They know nothing: what their
    neighbours know decides, and if none knows anything, the filter is trusted. */
-__kernel void guard_errors(__global const HalfLight* restrict unfiltered,
+__kernel void guard_errors(__global const SampledLight* restrict unfiltered,
                            __global const HalfLight* restrict light,
                            __global FilterErrors* restrict errors, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     FilterErrors e;
     e.direct = e.indirect = no_errors();
-    __global const HalfLight* u = unfiltered + id;
+    __global const SampledLight* u = unfiltered + id;
     const float n0 = u->direct[0].w, n1 = u->direct[1].w;
     if (n1 > 0.0f) {
         const float4 direct[2] = {u->direct[0] / n0, u->direct[1] / n1};
@@ -191,13 +191,13 @@ inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors es
 }
 
 __kernel void guard_choose(__constant FilterSettings* settings,
-                           __global const HalfLight* restrict unfiltered,
+                           __global const SampledLight* restrict unfiltered,
                            __global const HalfLight* restrict light,
                            __global const FilterErrors* restrict errors,
                            __global GuardedPixel* restrict guarded, int width, int height) {
     const uint id = get_global_id(0), count = (uint)(width * height);
     if (id >= count) return;
-    __global const HalfLight* u = unfiltered + id;
+    __global const SampledLight* u = unfiltered + id;
     const float n = fmax(u->direct[0].w + u->direct[1].w, 1.0f);
     GuardedPixel g;
     g.error = (float4)(0.0f);
@@ -209,6 +209,6 @@ __kernel void guard_choose(__constant FilterSettings* settings,
                                 WEDGE_STRIDE(count), (u->indirect[0] + u->indirect[1]) / n, &error);
     g.error.y = error;
     const int x = (int)id % width, y = (int)id / width;
-    g.error.z = rest_variance(unfiltered, x, y, width, height) / n;
+    g.error.z = rest_noise_at(unfiltered, x, y, width, height).of_mean / n;
     guarded[id] = g;
 }

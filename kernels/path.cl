@@ -113,6 +113,14 @@ inline void add_hemisphere(const PixelSignals* signals, int surface, const First
 #define WEDGE_DEPTH_OF_DIRECT_SKY 1
 #endif
 
+/* What chooses among the lights that are not filtered. Of light straight from them halves need not be
+   independent, and one sequence is better than two. */
+#if WEDGE_SIGNALS > 0 && defined(WEDGE_OTHER_LIGHTS)
+#define WEDGE_LIGHT_SAMPLER (depth == 0 ? signals->whole : sampler)
+#else
+#define WEDGE_LIGHT_SAMPLER sampler
+#endif
+
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
                              float3 view_axis,
                              const Sampler* sampler WEDGE_SIGNAL_PARAMS WEDGE_REPLAY_PARAMS) {
@@ -218,8 +226,13 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         }
 #endif
         if (scene->light_count > first_light) {
-            const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
-            direct += sample_direct(scene, &s, &f, wo, first_light, choice.x, u, goes_on, &result);
+            const Sampler* halves_or_whole = WEDGE_LIGHT_SAMPLER;
+            const float2 u = draw_2d(halves_or_whole, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
+            const float which =
+                halves_or_whole == sampler
+                    ? choice.x
+                    : draw_2d(halves_or_whole, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
+            direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on, &result);
         }
         if (depth == 0)
             result.direct += direct;
@@ -263,12 +276,19 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 }
 
 #if WEDGE_SIGNALS > 0
+inline bool is_power_of_two(uint x) {
+    return (x & (x - 1u)) == 0u;
+}
+
 inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
     const float3 rest = r->direct + r->indirect - r->filtered_direct - r->filtered_indirect;
     if (!fits_film(r->filtered_direct + r->filtered_indirect + rest)) return;
-    const int half_index = signals->half_index;
-    signals->unfiltered->direct[half_index] += (float4)(r->filtered_direct, 1.0f);
-    signals->unfiltered->indirect[half_index] += (float4)(r->filtered_indirect, luminance(rest));
+    __global SampledLight* sums = signals->unfiltered;
+    sums->direct[signals->half_index] += (float4)(r->filtered_direct, 1.0f);
+    sums->indirect[signals->half_index] += (float4)(r->filtered_indirect, 0.0f);
+    if (is_power_of_two(signals->sample)) sums->rest.yz = sums->rest.xy;
+    sums->rest.x += luminance(rest);
+    if (signals->half_index == 1) sums->rest.w += luminance(rest);
 }
 
 #define WEDGE_IS_WHOLE_PATH (!signals.camera_only)
@@ -312,7 +332,9 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                             all_unfiltered + pixel,
                             filter_settings->pixel_angle,
                             0,
+                            0,
                             probing,
+                            0,
                             0,
                             0,
                             0};
@@ -330,6 +352,10 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                 make_sampler(params->sampler, params->seed, params->sequences,
                              (uint)params->strata, code, sample);
 #if WEDGE_SIGNALS > 0
+            const Sampler whole = make_sampler(params->sampler, params->seed, 1,
+                                               (uint)params->strata, code, sample);
+            signals.whole = &whole;
+            signals.sample = sample;
             signals.half_index = sample & 1u;
             signals.probing_lights = probing && sample < WEDGE_LIGHT_PROBES;
 #endif

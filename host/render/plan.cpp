@@ -26,8 +26,11 @@ std::vector<bool> used_materials(const Scene& scene) {
 /// those lights one by one costs more than it gains.
 constexpr double kLeastFilteredPower = 0.5;
 
-/// The most powerful rectangles, unless most light comes from elsewhere.
-int count_shadow_lights(const Scene& scene) {
+/// Of less than this share nothing is seen.
+constexpr double kNegligiblePower = 1e-6;
+
+/// Filters the shadows of the most powerful rectangles, unless most light comes from elsewhere.
+void choose_shadow_lights(const Scene& scene, Plan& plan) {
     std::vector<double> powers;
     for (const RectLight& rect : scene.rect_lights) powers.push_back(light_power(rect));
     double all = shining_power(scene);
@@ -42,7 +45,9 @@ int count_shadow_lights(const Scene& scene) {
     while (count < std::min(int(powers.size()), WEDGE_MAX_SHADOW_LIGHTS) &&
            powers[std::size_t(count)] > 0)
         filtered += powers[std::size_t(count++)];
-    return filtered >= kLeastFilteredPower * all ? count : 0;
+    if (filtered < kLeastFilteredPower * all) count = 0, filtered = 0;
+    plan.shadow_lights = count;
+    plan.other_lights = filtered < (1 - kNegligiblePower) * all;
 }
 
 }  // namespace
@@ -68,7 +73,7 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
     if (plan.textures) plan.path_program.defines.push_back("WEDGE_TEXTURES=1");
     if (plan.normal_maps) plan.path_program.defines.push_back("WEDGE_NORMAL_MAPS=1");
     if (method == Method::aaf) {
-        plan.shadow_lights = count_shadow_lights(scene);
+        choose_shadow_lights(scene, plan);
         plan.hemisphere = has_hemisphere_light(scene, bounces);
     }
     plan.signals = plan.shadow_lights + (plan.hemisphere ? 1 + plan.specular : 0);
@@ -76,6 +81,7 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
         auto& defines = plan.path_program.defines;
         defines.push_back("WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights));
         if (plan.hemisphere) defines.push_back("WEDGE_FILTER_HEMISPHERE=1");
+        if (plan.other_lights) defines.push_back("WEDGE_OTHER_LIGHTS=1");
         plan.filter_programs = {{"kernels/distances.cl", defines},
                                 {"kernels/bandwidth.cl", defines},
                                 {"kernels/filter.cl", defines},

@@ -11,11 +11,12 @@ namespace wedge::rendering {
 
 /// Effects the scene has. Nothing is compiled or stored for those it has not.
 struct Plan {
-    bool specular = false;     ///< any visible material has a Phong or Blinn-Phong lobe
-    bool textures = false;     ///< any visible material has an image
-    bool normal_maps = false;  ///< any visible material bends its normal by an image
-    int shadow_lights = 0;     ///< rectangles whose shadows are filtered
-    bool hemisphere = false;   ///< indirect light and that of the background is filtered
+    bool specular = false;      ///< any visible material has a Phong or Blinn-Phong lobe
+    bool textures = false;      ///< any visible material has an image
+    bool normal_maps = false;   ///< any visible material bends its normal by an image
+    int shadow_lights = 0;      ///< rectangles whose shadows are filtered
+    bool other_lights = false;  ///< some lights are not among those
+    bool hemisphere = false;    ///< indirect light and that of the background is filtered
     int signals = 0;  ///< that are filtered, for each surface of a pixel; 0: plain Monte Carlo
     device::ProgramRequest path_program;
     std::vector<device::ProgramRequest> filter_programs;  ///< if signals > 0

@@ -133,7 +133,8 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
          entries * (sizeof(shared::DistanceRange) + 2 * WEDGE_FOUND_PLANES * sizeof(float))},
         {"filter widths", entries * sizeof(float)},
         {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
-        {"light before and after filters", pixels * (1 + WEDGE_SCALES) * sizeof(shared::HalfLight)},
+        {"light before and after filters",
+         pixels * (sizeof(shared::SampledLight) + WEDGE_SCALES * sizeof(shared::HalfLight))},
         {"guard", pixels * (2 * sizeof(shared::FilterErrors) + sizeof(shared::GuardedPixel))},
     };
 }
@@ -180,7 +181,7 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     distances_ =
         device_.allocate_filled(entries * sizeof(shared::DistanceRange), nothing, "distances");
     reflected_ = zeros(surfaces * lights_, sizeof(shared::float4), "unshadowed light");
-    unfiltered_ = zeros(pixels, sizeof(shared::HalfLight), "unfiltered light");
+    unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     allocate_planes();
     light_ = device_.allocate(WEDGE_SCALES * pixels * sizeof(shared::HalfLight), "filtered light");
@@ -322,7 +323,7 @@ void SignalFilter::write_sample_ends(std::span<const shared::SampleEnds> ends) {
 FilteredLight SignalFilter::read_light() {
     FilteredLight light;
     light.guarded = read<shared::GuardedPixel>(device_, guarded_, pixel_count());
-    light.unfiltered = read<shared::HalfLight>(device_, unfiltered_, pixel_count());
+    light.unfiltered = read<shared::SampledLight>(device_, unfiltered_, pixel_count());
     return light;
 }
 

@@ -34,9 +34,9 @@ struct SignalLayers {
 /// By pixel.
 struct FilteredLight {
     std::vector<shared::GuardedPixel> guarded;  ///< what takes the place of `unfiltered`
-    std::vector<shared::HalfLight> unfiltered;  ///< sums
-    SignalLayers direct;                        ///< of the most powerful light
-    SignalLayers indirect;                      ///< diffuse
+    std::vector<shared::SampledLight> unfiltered;
+    SignalLayers direct;    ///< of the most powerful light
+    SignalLayers indirect;  ///< diffuse
 };
 
 /// Device memory that a plan's signals take for so many pixels.

@@ -283,6 +283,53 @@ TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
     CHECK(samples[samples.size() / 4] == WEDGE_LIGHT_PROBES);  // only there
 }
 
+/// A ball that shines, which is not filtered, over a ground that bounces its light, which is.
+Scene make_lantern() {
+    Material lamp = lambert(0);
+    lamp.emission = Vec3(40);
+    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0),
+                              make_sphere({0, 1.5f, 0}, 0.3f, 8, false, 1)},
+                             {lambert(0.7f), lamp});
+    scene.film = {32, 24};
+    scene.camera = {.position = {0, 2.5f, 5}, .target = {0, 0, 1}, .vertical_fov_rad = 0.5f};
+    return scene;
+}
+
+TEST_CASE("light_that_is_not_filtered_is_drawn_from_one_sequence") {
+    // As good as path tracing; with one for each half the error is a third larger.
+    const Scene scene = make_lantern();
+    const Image truth = render(scene, quick(1024, 1, Sampler::lattice, 9)).image;
+    double squares = 0, plain = 0;
+    for (uint32_t seed = 0; seed < 4; ++seed) {
+        RenderOptions options = filtered(1, seed);
+        options.bounces = 1;
+        options.adaptive = false;
+        options.samples_per_pixel = 64;
+        squares += std::pow(channel_rmse(render(scene, options).image, truth, "direct.G"), 2);
+        const Image image = render(scene, quick(64, 1, Sampler::sobol, seed)).image;
+        plain += std::pow(channel_rmse(image, truth, "direct.G"), 2);
+    }
+    CHECK(std::sqrt(squares / plain) < 1.2);
+}
+
+TEST_CASE("error_of_light_that_is_not_filtered_is_told") {
+    const Scene scene = make_lantern();
+    const Image truth = render(scene, quick(1024, 1, Sampler::lattice, 9)).image;
+    for (float mu : {0.5f, 4.0f}) {
+        double told = 0, squares = 0;
+        for (uint32_t seed = 0; seed < 4; ++seed) {
+            RenderOptions options = filtered(mu, seed);
+            options.bounces = 1;
+            const Frame frame = render(scene, options);
+            told += std::pow(frame.stats.estimated_error->rmse, 2);
+            squares += std::pow(rmse(frame.image, truth), 2);
+        }
+        CAPTURE(mu);
+        CHECK(std::sqrt(told / squares) > 0.6);
+        CHECK(std::sqrt(told / squares) < 1.3);
+    }
+}
+
 TEST_CASE("what_shines_is_sampled_for_what_it_reflects") {
     // A plate in a penumbra: that it shines as well makes the light that it reflects no less noisy.
     const auto samples_on_plate = [](float emission) {

@@ -19,7 +19,7 @@ constexpr float kNoise = 0.1f;  // standard deviation of one half of a pixel's s
 
 /// Light of one, direct and indirect, with noise that filters take away, and `bias` with it.
 struct Light {
-    std::vector<shared::HalfLight> unfiltered = std::vector<shared::HalfLight>(kPixels);
+    std::vector<shared::SampledLight> unfiltered = std::vector<shared::SampledLight>(kPixels);
     std::vector<shared::HalfLight> scales = std::vector<shared::HalfLight>(WEDGE_SCALES * kPixels);
 
     explicit Light(float bias = 0) {
@@ -41,7 +41,7 @@ struct Light {
     }
 
     void sample(int pixel, int half, float value) {
-        shared::HalfLight& sums = unfiltered[std::size_t(pixel)];
+        shared::SampledLight& sums = unfiltered[std::size_t(pixel)];
         const float sum = kSamples * value;
         sums.direct[half] = {sum, sum, sum, kSamples};
         sums.indirect[half] = {sum, sum, sum, 0};

@@ -36,8 +36,12 @@ TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
     scene.meshes.push_back(make_sphere({0, 9, 0}, 1, 8, false, 1));
     scene.instances.push_back({.mesh = uint32_t(scene.meshes.size() - 1)});
     CHECK(explain(scene, filtered(1)).find(filtering) == std::string::npos);
+    RenderOptions bouncing = filtered(1);
+    bouncing.bounces = 1;
+    CHECK(explain(scene, bouncing).find("WEDGE_OTHER_LIGHTS=1") != std::string::npos);
     scene.meshes.back() = make_quad({-1, 9, -1}, {2, 0, 0}, {0, 0, 2}, 1);
     CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
+    CHECK(explain(scene, bouncing).find("WEDGE_OTHER_LIGHTS") == std::string::npos);
 }
 
 TEST_CASE("scenes_with_nothing_to_filter_are_plain_monte_carlo") {

@@ -50,11 +50,20 @@ typedef struct DistanceRange {
 } DistanceRange;
 WEDGE_ASSERT_SIZE(DistanceRange, 16);
 
-/* Radiance of a pixel that filters are for, by halves of its samples: before the filter, summed
-   over samples, or after it. */
+/* Sums over a pixel's samples: radiance that filters are for, by halves; light that is not
+   filtered. */
+typedef struct SampledLight {
+    float4 direct[2];   /* rgb, w: samples */
+    float4 indirect[2]; /* rgb, w: 0 */
+    float4 rest; /* luminance of what is not filtered; x: of all samples, y: of the first 2^k, as
+                    many as there are, but not all; z: of half of those; w: of odd ones */
+} SampledLight;
+WEDGE_ASSERT_SIZE(SampledLight, 80);
+
+/* Filtered radiance of a pixel, by halves of its samples. */
 typedef struct HalfLight {
-    float4 direct[2];   /* rgb, w: samples (sums only) */
-    float4 indirect[2]; /* rgb, w: luminance of light that is not filtered (sums only) */
+    float4 direct[2];   /* rgb, w: 0 */
+    float4 indirect[2]; /* rgb, w: 0 */
 } HalfLight;
 WEDGE_ASSERT_SIZE(HalfLight, 64);
 
