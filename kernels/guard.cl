@@ -43,7 +43,7 @@ inline ScaleErrors errors_of(const float4* plain, __global const float4* light, 
     ScaleErrors e;
     const float4 difference = plain[0] - plain[1];
     const float drift = dot_rgb(a[0] - plain[0], a[1] - plain[1]);
-    e.plain = (float4)(0.25f * dot_rgb(difference, difference), drift, 0.0f, 0.0f);
+    e.plain = (float4)(0.25f * dot_rgb(difference, difference), drift, drift * drift, 1.0f);
     e.noise = (float4)(noise_of(a), noise_of(b), noise_of(c), noise_of(d));
     const float first = drift_of(b, a);
     e.drift = (float4)(first * first, first, drift_of(c, b), drift_of(d, c));
@@ -60,9 +60,12 @@ inline ScaleErrors add_errors(ScaleErrors a, ScaleErrors b) {
     return sum;
 }
 
-inline ScaleErrors scale_errors(ScaleErrors e, float share) {
-    const ScaleErrors scaled = {e.noise * share, e.drift * share, e.plain * share};
-    return scaled;
+/* Of a sum over so many. */
+inline ScaleErrors mean_of(ScaleErrors sum, float count) {
+    const float share = 1.0f / count;
+    const ScaleErrors mean = {sum.noise * share, sum.drift * share,
+                              (float4)(sum.plain.xyz * share, sum.plain.w)};
+    return mean;
 }
 
 /* A render that was stopped early has pixels without a second half. They know nothing: what their
@@ -85,9 +88,7 @@ __kernel void guard_errors(__global const SampledLight* restrict unfiltered,
     errors[id] = e;
 }
 
-/* Mean of `errors` over a stretch of WEDGE_GUARD_SIDE pixels, as far as they are on the film. */
-#define WEDGE_GUARD_SIDE (2.0f * WEDGE_GUARD_RADIUS + 1.0f)
-
+/* Mean of `errors` over WEDGE_GUARD_RADIUS pixels to each side, as far as they are on the film. */
 inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,
                                 int before, int after) {
     FilterErrors sum;
@@ -98,9 +99,9 @@ inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, 
         sum.direct = add_errors(sum.direct, e.direct);
         sum.indirect = add_errors(sum.indirect, e.indirect);
     }
-    const float share = 1.0f / (float)(end - begin + 1);
-    sum.direct = scale_errors(sum.direct, share);
-    sum.indirect = scale_errors(sum.indirect, share);
+    const float count = (float)(end - begin + 1);
+    sum.direct = mean_of(sum.direct, count);
+    sum.indirect = mean_of(sum.indirect, count);
     return sum;
 }
 
@@ -122,13 +123,23 @@ __kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
 #define WEDGE_FIRST_DOUBT 2.0f
 #define WEDGE_NO_DOUBT 0.0f
 
-/* Magnitude of the drift from the pixel's own samples to the narrowest filter. Pixels are
-   independent there, so that the spread of their products tells the standard error of the mean: one
-   pixel with bright samples in both halves proves nothing. The square of their product is infinite
-   where radiance is beyond some 1e9. */
-inline float first_drift(float4 drift, float doubt) {
-    const float luck = doubt > 0.0f ? doubt * sqrt(drift.x) / WEDGE_GUARD_SIDE : 0.0f;
-    return sqrt(fmax(drift.y - luck, 0.0f));
+/* Samples of neighbours complement each other, so that fewer products are independent than there are
+   pixels: what was sampled must be better by more than half of its own noise, too. */
+#define WEDGE_PLAIN_DOUBT 1.0f
+#define WEDGE_CLEARLY 1.5f
+
+/* Magnitude of the drift from what was sampled to the pixel's own samples, or from them to the
+   narrowest filter. Pixels are independent there, so that the spread of their products tells the
+   standard error of the mean: one pixel with bright samples in both halves proves nothing. The
+   square of their product is infinite where radiance is beyond some 1e9. */
+inline float first_drift(float product, float square, float pixels, float doubt) {
+    const float luck = doubt > 0.0f ? doubt * sqrt(square / fmax(pixels, 1.0f)) : 0.0f;
+    return sqrt(fmax(product - luck, 0.0f));
+}
+
+/* The bias of the pixel's own samples, which filters share. */
+inline float shared_bias(ScaleErrors e, float doubt) {
+    return first_drift(e.plain.y, e.plain.z, e.plain.w, doubt);
 }
 
 /* Magnitude of the drift from a filter to the next wider one. What is smooth already is hardly
@@ -139,15 +150,20 @@ inline float next_drift(float product, float narrow_noise, float wide_noise, flo
     return sqrt(fmax(product - luck, 0.0f));
 }
 
-/* Mean square errors by scale. */
-inline float4 estimated_errors(ScaleErrors e, float first_doubt, float next_doubt) {
+/* Mean square errors by scale, with a bias of the first one. */
+inline float4 estimated_errors(ScaleErrors e, float shared, float first_doubt, float next_doubt) {
     const float4 n = e.noise;
     float4 bias;
-    bias.x = sqrt(fmax(e.plain.y, 0.0f));
-    bias.y = bias.x + first_drift(e.drift, first_doubt);
+    bias.x = shared;
+    bias.y = bias.x + first_drift(e.drift.y, e.drift.x, e.plain.w, first_doubt);
     bias.z = bias.y + next_drift(e.drift.z, n.y, n.z, next_doubt);
     bias.w = bias.z + next_drift(e.drift.w, n.z, n.w, next_doubt);
     return n + bias * bias;
+}
+
+/* The same, as they are told. */
+inline float4 likely_errors(ScaleErrors e) {
+    return estimated_errors(e, shared_bias(e, WEDGE_NO_DOUBT), WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
 }
 
 inline float4 mean_of_halves(__global const float4* light) {
@@ -155,22 +171,26 @@ inline float4 mean_of_halves(__global const float4* light) {
 }
 
 /* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so
-   the mean of a filter and none weighted by the errors is better than both. None is what has the
-   least error, the pixel's own samples or its plain radiance (`unfiltered`). */
+   the mean of a filter and none weighted by the errors is better than both. None is the pixel's own
+   samples, and the bias that they share with filters does not count. Where that is clearly more than
+   the noise of what was sampled (`unfiltered`), this takes their place, and the bias counts. */
 inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride,
                      float4 unfiltered, float* error) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
-    const float4 errors = estimated_errors(estimates, WEDGE_FIRST_DOUBT, doubt);
-    const float4 likely = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
+    const float plain = estimates.plain.x, shared = shared_bias(estimates, WEDGE_PLAIN_DOUBT);
+    const bool is_plain = WEDGE_CLEARLY * plain < estimates.noise.x + shared * shared;
+    const float4 errors =
+        estimated_errors(estimates, is_plain ? shared : 0.0f, WEDGE_FIRST_DOUBT, doubt);
+    const float4 likely = likely_errors(estimates);
     const float by_scale[WEDGE_SCALES] = {errors.x, errors.y, errors.z, errors.w};
     const float told[WEDGE_SCALES] = {likely.x, likely.y, likely.z, likely.w};
     int best = WEDGE_SCALES - 1;
     for (int k = WEDGE_SCALES - 2; k > 0; --k)
         if (by_scale[k] < by_scale[best]) best = k;
-    const bool is_plain = estimates.plain.x < errors.x;
-    const float none_error = fmin(estimates.plain.x, errors.x), filter_error = by_scale[best];
+    const float none_error = is_plain ? plain : errors.x, filter_error = by_scale[best];
     const float share = filter_error > 0.0f ? none_error / (none_error + filter_error) : 1.0f;
-    *error = share * share * told[best] + (1.0f - share) * (1.0f - share) * none_error;
+    const float rest = 1.0f - share;
+    *error = share * share * told[best] + rest * rest * (is_plain ? plain : likely.x);
     const float4 none = is_plain ? unfiltered : mean_of_halves(light);
     const float4 filtered = mean_of_halves(light + best * stride);
     return (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share);
@@ -183,10 +203,9 @@ inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors es
     const int mode = settings->mode;
     if (mode == WEDGE_FILTER_MODE_GUARDED)
         return choose(settings->doubt, estimates, light, stride, unfiltered, error);
-    const float4 errors = estimated_errors(estimates, WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
-    const bool plain = mode == WEDGE_FILTER_MODE_PLAIN;
-    *error = plain ? errors.w : errors.x;
-    return plain ? (float4)(mean_of_halves(light + (WEDGE_SCALES - 1) * stride).xyz, 1.0f)
+    const bool everywhere = mode == WEDGE_FILTER_MODE_PLAIN;
+    *error = everywhere ? likely_errors(estimates).w : estimates.plain.x;
+    return everywhere ? (float4)(mean_of_halves(light + (WEDGE_SCALES - 1) * stride).xyz, 1.0f)
                  : (float4)(unfiltered.xyz, 0.0f);
 }
 

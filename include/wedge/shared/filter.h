@@ -82,7 +82,7 @@ typedef struct ScaleErrors {
     float4 drift; /* y, z, w: square of what the filter adds to the bias of the next narrower one;
                      x: y's own square, of a pixel before it is smoothed */
     float4 plain; /* of the pixel's radiance as it was sampled; x: noise; y: square of the drift
-                     from it to the first scale; z, w: 0 */
+                     from it to the first scale; z: y's own square; w: pixels this is a mean of */
 } ScaleErrors;
 WEDGE_ASSERT_SIZE(ScaleErrors, 48);
 
