@@ -8,7 +8,8 @@
 
    WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
    WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for filtering
-   (lib/signals.clh, filter.cl), beside the plain estimate.
+   (lib/signals.clh, filter.cl), beside the plain estimate. WEDGE_OTHER_LIGHTS: not all lights are
+   filtered.
 
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
 #include "lib/film.clh"

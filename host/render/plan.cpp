@@ -45,7 +45,10 @@ void choose_shadow_lights(const Scene& scene, Plan& plan) {
     while (count < std::min(int(powers.size()), WEDGE_MAX_SHADOW_LIGHTS) &&
            powers[std::size_t(count)] > 0)
         filtered += powers[std::size_t(count++)];
-    if (filtered < kLeastFilteredPower * all) count = 0, filtered = 0;
+    if (filtered < kLeastFilteredPower * all) {
+        count = 0;
+        filtered = 0;
+    }
     plan.shadow_lights = count;
     plan.other_lights = filtered < (1 - kNegligiblePower) * all;
 }
