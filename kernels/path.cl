@@ -282,7 +282,8 @@ inline bool is_power_of_two(uint x) {
 }
 
 inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
-    const float3 rest = r->direct + r->indirect - r->filtered_direct - r->filtered_indirect;
+    /* In this order it is 0, and not a rounding error, where all light is filtered. */
+    const float3 rest = (r->direct - r->filtered_direct) + (r->indirect - r->filtered_indirect);
     if (!fits_film(r->filtered_direct + r->filtered_indirect + rest)) return;
     __global SampledLight* sums = signals->unfiltered;
     sums->direct[signals->half_index] += (float4)(r->filtered_direct, 1.0f);
