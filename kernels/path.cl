@@ -227,12 +227,12 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         }
 #endif
         if (scene->light_count > first_light) {
-            const Sampler* halves_or_whole = WEDGE_LIGHT_SAMPLER;
-            const float2 u = draw_2d(halves_or_whole, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
+            const Sampler* light_sampler = WEDGE_LIGHT_SAMPLER;
+            const float2 u = draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
             const float which =
-                halves_or_whole == sampler
+                light_sampler == sampler
                     ? choice.x
-                    : draw_2d(halves_or_whole, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
+                    : draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
             direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on, &result);
         }
         if (depth == 0)
