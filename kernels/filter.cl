@@ -150,29 +150,29 @@ inline void filter_line(const Filter* filter, const Group* group, Line line, int
     vstore8(sums.v7 * share, 0, filtered[7]);
 }
 
-/* Adds what a surface makes of a signal's means. Where none of a half's samples met the surface, the other half stands
+/* Adds what a surface makes of a signal's means to the pixel's parts. Where none of a half's samples met the surface, the other half stands
    in. `samples`: of the whole pixel. */
 inline void add_light(HalfLight* light, __global const SurfaceSum* sum, __global const float4* reflected,
                       int signal, float8 means, float samples) {
     const float share = 1.0f / samples;
+    float4* halves = light[is_light(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT].halves;
     if (is_light(signal)) {
         const float2 seen0 = means.y > 0.0f ? means.s01 : means.s23;
         const float2 seen1 = means.w > 0.0f ? means.s23 : means.s01;
         const float3 whole = reflected[signal].xyz * share;
-        light->direct[0].xyz += whole * (seen0.y > 0.0f ? seen0.x / seen0.y : 0.0f);
-        light->direct[1].xyz += whole * (seen1.y > 0.0f ? seen1.x / seen1.y : 0.0f);
+        halves[0].xyz += whole * (seen0.y > 0.0f ? seen0.x / seen0.y : 0.0f);
+        halves[1].xyz += whole * (seen1.y > 0.0f ? seen1.x / seen1.y : 0.0f);
     } else {
         const float4 half0 = means.s3 > 0.0f ? means.lo : means.hi;
         const float4 half1 = means.s7 > 0.0f ? means.hi : means.lo;
         const float3 colour = share * (signal == WEDGE_SIGNAL_DIFFUSE ? sum->diffuse.xyz : sum->specular.xyz);
-        light->indirect[0].xyz += colour * half0.xyz * (half0.w > 0.0f ? 1.0f / half0.w : 0.0f);
-        light->indirect[1].xyz += colour * half1.xyz * (half1.w > 0.0f ? 1.0f / half1.w : 0.0f);
+        halves[0].xyz += colour * half0.xyz * (half0.w > 0.0f ? 1.0f / half0.w : 0.0f);
+        halves[1].xyz += colour * half1.xyz * (half1.w > 0.0f ? 1.0f / half1.w : 0.0f);
     }
 }
 
 inline HalfLight no_light(void) {
-    HalfLight light;
-    for (int h = 0; h < 2; ++h) light.direct[h] = light.indirect[h] = (float4)(0.0f);
+    const HalfLight light = {{(float4)(0.0f), (float4)(0.0f)}};
     return light;
 }
 
@@ -185,15 +185,16 @@ __kernel void filter_none(__global const float* restrict places, __global const 
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
     const ulong at = pixel_at(&planes, pixel % width, pixel / width);
-    HalfLight result = no_light();
+    HalfLight result[WEDGE_PARTS];
+    for (int part = 0; part < WEDGE_PARTS; ++part) result[part] = no_light();
     for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
         const int surface = entry / WEDGE_SIGNALS, id = pixel * WEDGE_SURFACES + surface;
         if (!has_surface(&planes, places, surface, at)) break;
         const int signal = entry % WEDGE_SIGNALS;
-        add_light(&result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal,
+        add_light(result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal,
                   get_means(&planes, means, surface, signal, at), fmax(film[pixel].normal.w, 1.0f));
     }
-    light[pixel] = result;
+    for (int part = 0; part < WEDGE_PARTS; ++part) light[pixel * WEDGE_PARTS + part] = result[part];
 }
 
 #define WEDGE_FILTER_PARAMS                                                                        \
@@ -235,7 +236,7 @@ inline void filter_surface(const Filter* filter, const Group* group, Line line, 
             const float8 means = (float8)(column[0][lane], column[1][lane], column[2][lane], column[3][lane],
                                           column[4][lane], column[5][lane], column[6][lane], column[7][lane]);
             const int pixel = first + lane, id = pixel * WEDGE_SURFACES + surface;
-            add_light(light + lane, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal, means,
+            add_light(light + lane * WEDGE_PARTS, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal, means,
                       fmax(film[pixel].normal.w, 1.0f));
         }
     }
@@ -250,14 +251,15 @@ __kernel void filter_y(WEDGE_FILTER_PARAMS, __global const FilmPixel* restrict f
     const Group group = group_in_columns(&filter.planes, (int)get_global_id(0));
     if (!is_on_film(&filter.planes, &group)) return;
     const Line line = {group.y, height - 1 - group.y, 0, filter.planes.pitch};
-    HalfLight result[WEDGE_LANES];
-    for (int lane = 0; lane < WEDGE_LANES; ++lane) result[lane] = no_light();
+    HalfLight result[WEDGE_LANES * WEDGE_PARTS];
+    for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
         const float8 size = load8(&filter.planes, places,
                                   surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, group.at);
         if (!lane_bits8(size > 0.0f)) break;
         filter_surface(&filter, &group, line, surface, film, sums, reflected, result);
     }
-    const int first = index * width * height + group.y * width + group.x;
-    for (int lane = 0; lane < min(WEDGE_LANES, width - group.x); ++lane) light[first + lane] = result[lane];
+    __global HalfLight* first = light + (index * width * height + group.y * width + group.x) * WEDGE_PARTS;
+    const int count = min(WEDGE_LANES, width - group.x) * WEDGE_PARTS;
+    for (int i = 0; i < count; ++i) first[i] = result[i];
 }

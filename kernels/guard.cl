@@ -13,11 +13,12 @@
    and colour vary together within a surface of a pixel. Radiance as it was sampled, by paths alone,
    has no such bias, and no other: drifts from there on add up to the bias of each filter.
 
-     guard_errors      noise and drifts of each pixel
-     guard_smooth_x, guard_smooth_y   their means over neighbours
-     guard_choose      the mixture of the least error */
+     guard_errors   noise and drifts of each pixel
+     guard_smooth   their means over neighbours along rows
+     guard_choose   those along columns, and the mixture of the least error */
 #include "lib/geometry.clh"
 #include "lib/rest_noise.clh"
+#include "lib/signal_list.clh"
 #include "wedge/shared/filter.h"
 
 inline float dot_rgb(float4 a, float4 b) {
@@ -34,12 +35,10 @@ inline float drift_of(__global const float4* wide, __global const float4* narrow
     return dot_rgb(wide[0] - narrow[0], wide[1] - narrow[1]);
 }
 
-/* float4 from one pixel's HalfLight to the same of the next scale. */
-#define WEDGE_STRIDE(count) ((count) * (uint)(sizeof(HalfLight) / sizeof(float4)))
-
-/* `plain`: radiance as sampled, of both halves. */
-inline ScaleErrors errors_of(const float4* plain, __global const float4* light, uint stride) {
-    __global const float4 *a = light, *b = a + stride, *c = b + stride, *d = c + stride;
+/* `plain`: radiance as sampled, of both halves. `light`: by scale, `stride` apart. */
+inline ScaleErrors errors_of(const float4* plain, __global const HalfLight* light, uint stride) {
+    __global const float4 *a = light->halves, *b = light[stride].halves,
+                          *c = light[2 * stride].halves, *d = light[3 * stride].halves;
     ScaleErrors e;
     const float4 difference = plain[0] - plain[1];
     const float drift = dot_rgb(a[0] - plain[0], a[1] - plain[1]);
@@ -68,53 +67,46 @@ inline ScaleErrors mean_of(ScaleErrors sum, float count) {
     return mean;
 }
 
-/* A render that was stopped early has pixels without a second half. They know nothing: what their
+/* Of a part. */
+inline __global const float4* sampled(__global const SampledLight* light, uint part) {
+    return WEDGE_SHADOW_LIGHTS > 0 && part == WEDGE_PART_DIRECT ? light->direct : light->indirect;
+}
+
+/* At least 1. */
+inline float sample_count(__global const SampledLight* light) {
+    return fmax(light->direct[0].w + light->direct[1].w, 1.0f);
+}
+
+/* Work-items of this and the next kernel: parts of pixels.
+
+   A render that was stopped early has pixels without a second half. They know nothing: what their
    neighbours know decides, and if none knows anything, the filter is trusted. */
 __kernel void guard_errors(__global const SampledLight* restrict unfiltered,
                            __global const HalfLight* restrict light,
-                           __global FilterErrors* restrict errors, uint count) {
+                           __global ScaleErrors* restrict errors, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
-    FilterErrors e;
-    e.direct = e.indirect = no_errors();
-    __global const SampledLight* u = unfiltered + id;
+    __global const SampledLight* u = unfiltered + id / WEDGE_PARTS;
+    __global const float4* sums = sampled(u, id % WEDGE_PARTS);
     const float n0 = u->direct[0].w, n1 = u->direct[1].w;
-    if (n1 > 0.0f) {
-        const float4 direct[2] = {u->direct[0] / n0, u->direct[1] / n1};
-        const float4 indirect[2] = {u->indirect[0] / n0, u->indirect[1] / n1};
-        e.direct = errors_of(direct, light[id].direct, WEDGE_STRIDE(count));
-        e.indirect = errors_of(indirect, light[id].indirect, WEDGE_STRIDE(count));
-    }
-    errors[id] = e;
+    const float4 plain[2] = {sums[0] / n0, sums[1] / n1};
+    errors[id] = n1 > 0.0f ? errors_of(plain, light + id, count) : no_errors();
 }
 
 /* Mean of `errors` over WEDGE_GUARD_RADIUS pixels to each side, as far as they are on the film. */
-inline FilterErrors mean_errors(__global const FilterErrors* errors, int first, int stride,
-                                int before, int after) {
-    FilterErrors sum;
-    sum.direct = sum.indirect = no_errors();
+inline ScaleErrors mean_errors(__global const ScaleErrors* errors, int first, int stride,
+                               int before, int after) {
+    ScaleErrors sum = no_errors();
     const int begin = -min(before, WEDGE_GUARD_RADIUS), end = min(after, WEDGE_GUARD_RADIUS);
-    for (int i = begin; i <= end; ++i) {
-        const FilterErrors e = errors[first + i * stride];
-        sum.direct = add_errors(sum.direct, e.direct);
-        sum.indirect = add_errors(sum.indirect, e.indirect);
-    }
-    const float count = (float)(end - begin + 1);
-    sum.direct = mean_of(sum.direct, count);
-    sum.indirect = mean_of(sum.indirect, count);
-    return sum;
+    for (int i = begin; i <= end; ++i) sum = add_errors(sum, errors[first + i * stride]);
+    return mean_of(sum, (float)(end - begin + 1));
 }
 
-__kernel void guard_smooth_x(__global const FilterErrors* restrict errors,
-                             __global FilterErrors* restrict smoothed, int width, int height) {
-    const int id = (int)get_global_id(0), x = id % max(width, 1);
-    if (id < width * height) smoothed[id] = mean_errors(errors, id, 1, x, width - 1 - x);
-}
-
-__kernel void guard_smooth_y(__global const FilterErrors* restrict errors,
-                             __global FilterErrors* restrict smoothed, int width, int height) {
-    const int id = (int)get_global_id(0), y = id / max(width, 1);
-    if (id < width * height) smoothed[id] = mean_errors(errors, id, width, y, height - 1 - y);
+__kernel void guard_smooth(__global const ScaleErrors* restrict errors,
+                           __global ScaleErrors* restrict smoothed, int width, int height) {
+    const int id = (int)get_global_id(0), x = id / WEDGE_PARTS % max(width, 1);
+    if (id < width * height * WEDGE_PARTS)
+        smoothed[id] = mean_errors(errors, id, WEDGE_PARTS, x, width - 1 - x);
 }
 
 /* Where it is a matter of luck which seems better, the wider filter is the better guess: before one
@@ -166,16 +158,22 @@ inline float4 likely_errors(ScaleErrors e) {
     return estimated_errors(e, shared_bias(e, WEDGE_NO_DOUBT), WEDGE_NO_DOUBT, WEDGE_NO_DOUBT);
 }
 
-inline float4 mean_of_halves(__global const float4* light) {
-    return 0.5f * (light[0] + light[1]);
+inline float4 mean_of_halves(__global const HalfLight* light) {
+    return 0.5f * (light->halves[0] + light->halves[1]);
 }
 
-/* rgb, and the width that was taken, as a share of the full one. Bias and noise are independent, so
-   the mean of a filter and none weighted by the errors is better than both. None is the pixel's own
-   samples, and the bias that they share with filters does not count. Where that is clearly more than
-   the noise of what was sampled (`unfiltered`), this takes their place, and the bias counts. */
-inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* light, uint stride,
-                     float4 unfiltered, float* error) {
+/* What is made of a part of a pixel. */
+typedef struct {
+    float4 light; /* rgb, w: width of the filter that was taken, as a share of the full one */
+    float error;  /* mean square */
+} Chosen;
+
+/* Bias and noise are independent, so the mean of a filter and none weighted by the errors is better
+   than both. None is the pixel's own samples, and the bias that they share with filters does not
+   count. Where that is clearly more than the noise of what was sampled (`unfiltered`), this takes
+   their place, and the bias counts. `light`: by scale, `stride` apart. */
+inline Chosen choose(float doubt, ScaleErrors estimates, __global const HalfLight* light,
+                     uint stride, float4 unfiltered) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
     const float plain = estimates.plain.x, shared = shared_bias(estimates, WEDGE_PLAIN_DOUBT);
     const bool is_plain = WEDGE_CLEARLY * plain < estimates.noise.x + shared * shared;
@@ -190,44 +188,64 @@ inline float4 choose(float doubt, ScaleErrors estimates, __global const float4* 
     const float none_error = is_plain ? plain : errors.x, filter_error = by_scale[best];
     const float share = filter_error > 0.0f ? none_error / (none_error + filter_error) : 1.0f;
     const float rest = 1.0f - share;
-    *error = share * share * told[best] + rest * rest * (is_plain ? plain : likely.x);
     const float4 none = is_plain ? unfiltered : mean_of_halves(light);
     const float4 filtered = mean_of_halves(light + best * stride);
-    return (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share);
+    const Chosen c = {
+        (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share),
+        share * share * told[best] + rest * rest * (is_plain ? plain : likely.x)};
+    return c;
 }
 
-/* `choose`, or the filter everywhere or nowhere. `light`: of a pixel by scale, `stride` apart. */
-inline float4 choose_by_mode(__constant FilterSettings* settings, ScaleErrors estimates,
-                             __global const float4* light, uint stride, float4 unfiltered,
-                             float* error) {
-    const int mode = settings->mode;
-    if (mode == WEDGE_FILTER_MODE_GUARDED)
-        return choose(settings->doubt, estimates, light, stride, unfiltered, error);
-    const bool everywhere = mode == WEDGE_FILTER_MODE_PLAIN;
-    *error = everywhere ? likely_errors(estimates).w : estimates.plain.x;
-    return everywhere ? (float4)(mean_of_halves(light + (WEDGE_SCALES - 1) * stride).xyz, 1.0f)
-                 : (float4)(unfiltered.xyz, 0.0f);
+/* `choose`, or the filter everywhere or nowhere. */
+inline Chosen choose_by_mode(__constant FilterSettings* settings, ScaleErrors estimates,
+                             __global const HalfLight* light, uint stride, float4 unfiltered) {
+    if (settings->mode == WEDGE_FILTER_MODE_GUARDED)
+        return choose(settings->doubt, estimates, light, stride, unfiltered);
+    const bool everywhere = settings->mode == WEDGE_FILTER_MODE_PLAIN;
+    const float4 filtered = mean_of_halves(light + (WEDGE_SCALES - 1) * stride);
+    const Chosen c = {
+        everywhere ? (float4)(filtered.xyz, 1.0f) : (float4)(unfiltered.xyz, 0.0f),
+        everywhere ? likely_errors(estimates).w : estimates.plain.x};
+    return c;
+}
+
+/* What the kernel below knows; the arrays are all pixels'. */
+typedef struct {
+    __constant FilterSettings* settings;
+    __global const SampledLight* unfiltered;
+    __global const HalfLight* light;
+    __global const ScaleErrors* errors;
+    int width, height;
+} Guard;
+
+inline Chosen choose_part(const Guard* guard, int x, int y, int part) {
+    const int stride = guard->width * WEDGE_PARTS, id = y * stride + x * WEDGE_PARTS + part;
+    const ScaleErrors estimates =
+        mean_errors(guard->errors, id, stride, y, guard->height - 1 - y);
+    __global const SampledLight* u = guard->unfiltered + y * guard->width + x;
+    __global const float4* sums = sampled(u, (uint)part);
+    const float4 mean = (sums[0] + sums[1]) / sample_count(u);
+    return choose_by_mode(guard->settings, estimates, guard->light + id,
+                          (uint)(stride * guard->height), mean);
 }
 
 __kernel void guard_choose(__constant FilterSettings* settings,
                            __global const SampledLight* restrict unfiltered,
                            __global const HalfLight* restrict light,
-                           __global const FilterErrors* restrict errors,
+                           __global const ScaleErrors* restrict errors,
                            __global GuardedPixel* restrict guarded, int width, int height) {
-    const uint id = get_global_id(0), count = (uint)(width * height);
-    if (id >= count) return;
-    __global const SampledLight* u = unfiltered + id;
-    const float n = fmax(u->direct[0].w + u->direct[1].w, 1.0f);
-    GuardedPixel g;
-    g.error = (float4)(0.0f);
-    float error;
-    g.direct = choose_by_mode(settings, errors[id].direct, light[id].direct, WEDGE_STRIDE(count),
-                              (u->direct[0] + u->direct[1]) / n, &error);
-    g.error.x = error;
-    g.indirect = choose_by_mode(settings, errors[id].indirect, light[id].indirect,
-                                WEDGE_STRIDE(count), (u->indirect[0] + u->indirect[1]) / n, &error);
-    g.error.y = error;
-    const int x = (int)id % width, y = (int)id / width;
-    g.error.z = rest_noise_at(unfiltered, x, y, width, height).of_mean / n;
+    const int id = (int)get_global_id(0);
+    if (id >= width * height) return;
+    const Guard guard = {settings, unfiltered, light, errors, width, height};
+    const int x = id % width, y = id / width;
+    const Chosen nothing = {(float4)(0.0f), 0.0f};
+    Chosen direct = nothing, indirect = nothing;
+    if (WEDGE_SHADOW_LIGHTS > 0) direct = choose_part(&guard, x, y, WEDGE_PART_DIRECT);
+    if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
+        indirect = choose_part(&guard, x, y, WEDGE_PART_INDIRECT);
+    const float rest = rest_noise_at(unfiltered, x, y, width, height).of_mean /
+                       sample_count(unfiltered + id);
+    const GuardedPixel g = {direct.light, indirect.light,
+                            (float4)(direct.error, indirect.error, rest, 0.0f)};
     guarded[id] = g;
 }

@@ -88,7 +88,7 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
         plan.filter_programs = {{"kernels/distances.cl", defines},
                                 {"kernels/bandwidth.cl", defines},
                                 {"kernels/filter.cl", defines},
-                                {"kernels/guard.cl", {}}};
+                                {"kernels/guard.cl", defines}};
     }
     return plan;
 }

@@ -73,9 +73,20 @@ void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
     (kernel.setArg(index++, args), ...);
 }
 
+/// Direct and indirect light, as far as they are filtered.
+int plan_parts(const Plan& plan) {
+    return (plan.shadow_lights > 0) + plan.hemisphere;
+}
+
 /// Of a surface.
 uint64_t mean_planes(uint64_t lights, uint64_t signals) {
     return WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signals - lights);
+}
+
+/// Of a pixel; what was found gives its place to the errors of filters.
+uint64_t found_planes(uint64_t signals, uint64_t parts) {
+    return std::max(WEDGE_SURFACES * signals * WEDGE_FOUND_PLANES,
+                    parts * sizeof(shared::ScaleErrors) / sizeof(float));
 }
 
 template <typename T>
@@ -129,13 +140,16 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
         {"signals, filtered",
          surfaces * 2 * mean_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals)) *
              sizeof(float)},
-        {"distances",
-         entries * (sizeof(shared::DistanceRange) + 2 * WEDGE_FOUND_PLANES * sizeof(float))},
+        {"distances", entries * sizeof(shared::DistanceRange) +
+                          2 * pixels *
+                              found_planes(uint64_t(plan.signals), uint64_t(plan_parts(plan))) *
+                              sizeof(float)},
         {"filter widths", entries * sizeof(float)},
         {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
         {"light before and after filters",
-         pixels * (sizeof(shared::SampledLight) + WEDGE_SCALES * sizeof(shared::HalfLight))},
-        {"guard", pixels * (2 * sizeof(shared::FilterErrors) + sizeof(shared::GuardedPixel))},
+         pixels * (sizeof(shared::SampledLight) +
+                   uint64_t(plan_parts(plan)) * WEDGE_SCALES * sizeof(shared::HalfLight))},
+        {"guarded light", pixels * sizeof(shared::GuardedPixel)},
     };
 }
 
@@ -147,6 +161,7 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
       height_(uint32_t(crop.height)),
       lights_(uint32_t(plan.shadow_lights)),
       signals_(uint32_t(plan.signals)),
+      parts_(uint32_t(plan_parts(plan))),
       light_list_(tracer.lights()),
       params_(tracer.params()),
       film_(tracer.film()) {
@@ -184,25 +199,35 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     allocate_planes();
-    light_ = device_.allocate(WEDGE_SCALES * pixels * sizeof(shared::HalfLight), "filtered light");
-    for (cl::Buffer* errors : {&errors_, &smoothed_})
-        *errors = device_.allocate(pixels * sizeof(shared::FilterErrors), "errors of filters");
+    light_ =
+        device_.allocate(WEDGE_SCALES * part_count() * sizeof(shared::HalfLight), "filtered light");
     guarded_ = device_.allocate(pixels * sizeof(shared::GuardedPixel), "guarded light");
 }
 
 void SignalFilter::allocate_planes() {
     const uint64_t surfaces = WEDGE_SURFACES, entries = surfaces * signals_;
-    const auto planes = [&](uint64_t count, const char* what) {
-        const uint64_t floats = count * plane_size() + 2 * WEDGE_PLANE_MARGIN;
-        return device_.allocate_zeros(floats * sizeof(float), what);
+    const auto bytes = [&](uint64_t count) {
+        return (count * plane_size() + 2 * WEDGE_PLANE_MARGIN) * sizeof(float);
     };
-    places_ = planes(surfaces * WEDGE_PLACE_PLANES, "places of surfaces");
-    found_ = planes(entries * WEDGE_FOUND_PLANES, "slopes and depths");
-    near_by_ = planes(entries * WEDGE_FOUND_PLANES, "slopes and depths near by");
+    const auto planes = [&](uint64_t count, const char* what) {
+        return device_.allocate(bytes(count), what);
+    };
+    // Where there is no surface or beside the film these are read, though for nothing, and where a
+    // surface is found late it has no width yet.
+    const auto zeros = [&](uint64_t count, const char* what) {
+        return device_.allocate_zeros(bytes(count), what);
+    };
+    places_ = zeros(surfaces * WEDGE_PLACE_PLANES, "places of surfaces");
+    means_ = zeros(surfaces * mean_planes(lights_, signals_), "means of signals");
+    filtered_ = zeros(surfaces * mean_planes(lights_, signals_), "half-filtered signals");
     ends_ = planes(1, "edges of surfaces");
-    sigmas_ = planes(entries, "filter widths");
-    means_ = planes(surfaces * mean_planes(lights_, signals_), "means of signals");
-    filtered_ = planes(surfaces * mean_planes(lights_, signals_), "half-filtered signals");
+    sigmas_ = zeros(entries, "filter widths");
+    const uint64_t found = found_planes(signals_, parts_);
+    found_ = planes(found, "slopes and depths");
+    near_by_ = planes(found, "slopes and depths near by");
+    // Memory costs time when it is touched first; by the time of errors nobody needs these.
+    errors_ = found_;
+    smoothed_ = near_by_;
 }
 
 void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats) {
@@ -221,8 +246,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     filter_y_ = filters.kernel("filter_y");
     filter_none_ = filters.kernel("filter_none");
     guard_errors_ = guard.kernel("guard_errors");
-    smooth_x_ = guard.kernel("guard_smooth_x");
-    smooth_y_ = guard.kernel("guard_smooth_y");
+    guard_smooth_ = guard.kernel("guard_smooth");
     choose_ = guard.kernel("guard_choose");
     for (const device::Program& program : programs)
         (program.from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
@@ -236,7 +260,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
 
 void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     const auto width = cl_int(film_width), height = cl_int(film_height);
-    const auto pixels = cl_uint(film_width * film_height);
+    const auto parts = cl_uint(film_width * film_height * parts_);
     set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, places_, width, height);
     set_kernel_args(distances_kernel_, distances_, sums_, found_, width, height);
     set_kernel_args(neighbours_kernel_, places_, found_, near_by_, ends_, width, height);
@@ -252,10 +276,9 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     1.0f, filtered_);
     set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,
                     1.0f, film_, surface_sums_, reflected_, light_, cl_int(0));
-    set_kernel_args(guard_errors_, unfiltered_, light_, errors_, pixels);
-    set_kernel_args(smooth_x_, errors_, smoothed_, width, height);
-    set_kernel_args(smooth_y_, smoothed_, errors_, width, height);
-    set_kernel_args(choose_, settings_, unfiltered_, light_, errors_, guarded_, width, height);
+    set_kernel_args(guard_errors_, unfiltered_, light_, errors_, parts);
+    set_kernel_args(guard_smooth_, errors_, smoothed_, width, height);
+    set_kernel_args(choose_, settings_, unfiltered_, light_, smoothed_, guarded_, width, height);
 }
 
 double SignalFilter::run(std::span<const Launch> launches) {
@@ -304,9 +327,8 @@ double SignalFilter::filter() {
         filter_y_.setArg(kIndexArg, cl_int(scale));
         seconds += run(std::array{Launch{filter_x_, groups}, Launch{filter_y_, groups}});
     }
-    const Launch guard[] = {{guard_errors_, pixels},
-                            {smooth_x_, pixels},
-                            {smooth_y_, pixels},
+    const Launch guard[] = {{guard_errors_, part_count()},
+                            {guard_smooth_, part_count()},
                             {choose_, pixels},
                             {edge_noise_, pixels}};
     return seconds + run(guard);

@@ -78,6 +78,7 @@ class SignalFilter {
         uint64_t count;
     };
 
+    uint64_t part_count() const { return pixel_count() * parts_; }
     /// Floats in a plane, and groups of pixels that are filtered at once (shared/planes.h).
     uint64_t plane_size() const { return uint64_t(WEDGE_PLANE_PITCH(width_)) * height_; }
     uint64_t group_count() const { return plane_size() / WEDGE_LANES; }
@@ -91,7 +92,7 @@ class SignalFilter {
     SignalLayers read_signal(uint32_t signal);
 
     device::Device& device_;
-    uint32_t width_, height_, lights_, signals_;
+    uint32_t width_, height_, lights_, signals_, parts_;
     cl::Buffer light_list_, params_, film_;
     cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, sums_, distances_,
         reflected_, unfiltered_;
@@ -99,7 +100,7 @@ class SignalFilter {
     cl::Buffer light_, errors_, smoothed_, guarded_;
     cl::Kernel surfaces_kernel_, distances_kernel_, neighbours_kernel_, brightness_kernel_,
         bandwidth_kernel_, edge_noise_, means_kernel_, filter_none_, filter_x_, filter_y_,
-        guard_errors_, smooth_x_, smooth_y_, choose_;
+        guard_errors_, guard_smooth_, choose_;
 };
 
 }  // namespace wedge::rendering

@@ -14,13 +14,15 @@ namespace wedge::test {
 namespace {
 
 constexpr int kSide = 33, kMiddle = kSide / 2, kPixels = kSide * kSide;
+constexpr int kParts = 2;       // direct and indirect light
 constexpr float kSamples = 8;   // of a half
 constexpr float kNoise = 0.1f;  // standard deviation of one half of a pixel's samples
 
 /// Light of one, direct and indirect, with noise that filters take away, and `bias` with it.
 struct Light {
     std::vector<shared::SampledLight> unfiltered = std::vector<shared::SampledLight>(kPixels);
-    std::vector<shared::HalfLight> scales = std::vector<shared::HalfLight>(WEDGE_SCALES * kPixels);
+    std::vector<shared::HalfLight> scales =
+        std::vector<shared::HalfLight>(WEDGE_SCALES * kParts * kPixels);
 
     explicit Light(float bias = 0) {
         std::mt19937 random(1);
@@ -35,9 +37,13 @@ struct Light {
 
     /// Scale 0, the pixel's own samples, is also what was sampled.
     void set(int pixel, int half, int scale, float value) {
-        shared::HalfLight& light = scales[std::size_t(scale * kPixels + pixel)];
-        light.direct[half] = light.indirect[half] = {value, value, value, 0};
+        for (int part = 0; part < kParts; ++part)
+            at(scale, pixel, part).halves[half] = {value, value, value, 0};
         if (scale == 0) sample(pixel, half, value);
+    }
+
+    shared::HalfLight& at(int scale, int pixel, int part) {
+        return scales[std::size_t((scale * kPixels + pixel) * kParts + part)];
     }
 
     void sample(int pixel, int half, float value) {
@@ -50,7 +56,8 @@ struct Light {
 
 std::vector<shared::GuardedPixel> run_guard(const Light& light) {
     device::Device device;
-    const device::ProgramRequest request{"kernels/guard.cl", {}};
+    const device::ProgramRequest request{"kernels/guard.cl",
+                                         {"WEDGE_SHADOW_LIGHTS=1", "WEDGE_FILTER_HEMISPHERE=1"}};
     const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
     shared::FilterSettings settings{};
     settings.mode = WEDGE_FILTER_MODE_GUARDED;
@@ -59,7 +66,7 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light) {
         return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), what,
                                    CL_MEM_READ_WRITE);
     };
-    std::vector<shared::FilterErrors> no_errors(kPixels);
+    std::vector<shared::ScaleErrors> no_errors(kParts * kPixels);
     std::vector<shared::GuardedPixel> guarded(kPixels);
     const cl::Buffer settings_buffer = device.upload_bytes(&settings, sizeof(settings), "settings");
     const cl::Buffer unfiltered = upload(light.unfiltered, "unfiltered");
@@ -70,12 +77,11 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light) {
         cl::Kernel kernel = programs[0].kernel(name);
         cl_uint index = 0;
         (kernel.setArg(index++, args), ...);
-        device.launch(kernel, kPixels);
+        device.launch(kernel, kParts * kPixels);
     };
-    launch("guard_errors", unfiltered, scales, errors, cl_uint(kPixels));
-    launch("guard_smooth_x", errors, smoothed, cl_int(kSide), cl_int(kSide));
-    launch("guard_smooth_y", smoothed, errors, cl_int(kSide), cl_int(kSide));
-    launch("guard_choose", settings_buffer, unfiltered, scales, errors, result, cl_int(kSide),
+    launch("guard_errors", unfiltered, scales, errors, cl_uint(kParts * kPixels));
+    launch("guard_smooth", errors, smoothed, cl_int(kSide), cl_int(kSide));
+    launch("guard_choose", settings_buffer, unfiltered, scales, smoothed, result, cl_int(kSide),
            cl_int(kSide));
     device.download(result, guarded.data(), guarded.size() * sizeof(guarded[0]));
     return guarded;
@@ -149,7 +155,7 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
     std::normal_distribution<float> noise(0, edge_noise);
     for (int i = 0; i < kPixels; ++i)
         for (int half = 0; half < 2; ++half) {
-            const float own = light.scales[std::size_t(i)].direct[half].x;
+            const float own = light.at(0, i, 0).halves[half].x;
             light.sample(i, half, own + difference + noise(random));
         }
     double direct = 0, indirect = 0, error = 0;

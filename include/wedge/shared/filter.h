@@ -60,15 +60,15 @@ typedef struct SampledLight {
 } SampledLight;
 WEDGE_ASSERT_SIZE(SampledLight, 80);
 
-/* Filtered radiance of a pixel, by halves of its samples. */
+/* Parts of a pixel's light that are filtered apart: direct, then indirect, as far as a plan has
+   signals of them. One of the parts, filtered, by halves of the pixel's samples. */
 typedef struct HalfLight {
-    float4 direct[2];   /* rgb, w: 0 */
-    float4 indirect[2]; /* rgb, w: 0 */
+    float4 halves[2]; /* rgb, w: 0 */
 } HalfLight;
-WEDGE_ASSERT_SIZE(HalfLight, 64);
+WEDGE_ASSERT_SIZE(HalfLight, 32);
 
 /* Filters that the guard chooses from, by the share of the width that theory asks for; the first
-   leaves each pixel to its own samples. Light is kept at scale * pixels + pixel. */
+   leaves each pixel to its own samples. Light is kept at (scale * pixels + pixel) * parts + part. */
 #define WEDGE_SCALES 4
 #define WEDGE_SCALE_WIDTHS \
     { 0.0f, 0.25f, 0.5f, 1.0f }
@@ -76,7 +76,7 @@ WEDGE_ASSERT_SIZE(HalfLight, 64);
 /* Errors are means over pixels up to so far away, along rows and columns. */
 #define WEDGE_GUARD_RADIUS 5
 
-/* What the halves tell of the errors of filters, by scale. */
+/* What the halves tell of the errors of filters of a part, by scale; at pixel * parts + part. */
 typedef struct ScaleErrors {
     float4 noise; /* mean square, of the mean of both halves */
     float4 drift; /* y, z, w: square of what the filter adds to the bias of the next narrower one;
@@ -85,11 +85,6 @@ typedef struct ScaleErrors {
                      from it to the first scale; z: y's own square; w: pixels this is a mean of */
 } ScaleErrors;
 WEDGE_ASSERT_SIZE(ScaleErrors, 48);
-
-typedef struct FilterErrors {
-    ScaleErrors direct, indirect;
-} FilterErrors;
-WEDGE_ASSERT_SIZE(FilterErrors, 96);
 
 /* What the guard made of a pixel. */
 typedef struct GuardedPixel {
