@@ -164,7 +164,8 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
         indirect += double(pixel.indirect.x) / kPixels;
         error += double(pixel.error.x) / kPixels;
     }
-    // The noise of what was sampled is 0.079, so the best mixture has 0.62 of the difference.
+    // What the halves differ by at edges hardly counts: the noise of what was sampled is 0.072, so
+    // that the mixture has 0.66 of the difference.
     CHECK(direct > 1 + 0.5 * double(difference));
     CHECK(indirect > 1 + 0.5 * double(difference));
     CHECK(error > 0.002);

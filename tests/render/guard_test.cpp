@@ -72,6 +72,18 @@ TEST_CASE("the_error_layer_tells_the_error") {
     }
 }
 
+TEST_CASE("without_filters_the_error_of_what_was_sampled_is_told") {
+    const Scene scene = make_penumbra(LightProfile::uniform);
+    const Image truth = render(scene, quick(2048, 0, Sampler::lattice, 9)).image;
+    RenderOptions options = filtered(0.5f);
+    options.filter = FilterMode::none;
+    const Frame frame = render(scene, options);
+    const double ratio = frame.stats.estimated_error->rmse / rmse(frame.image, truth);
+    CAPTURE(ratio);
+    CHECK(ratio > 0.75);
+    CHECK(ratio < 1.35);
+}
+
 TEST_CASE("unfiltered_layer_is_the_plain_estimate") {
     // Its mean over seeds is the truth, also where filters are wide: Welch's test over blocks would
     // need many renders; the image's mean has hardly any variance.
