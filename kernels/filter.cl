@@ -176,9 +176,21 @@ inline HalfLight no_light(void) {
     return light;
 }
 
+/* Adds a light's part of HalfLight's w. The ratio to unshadowed light that filters go by has less noise than light as
+   it was sampled, of which this is the mean over samples that met the surface. `sums`: of the signal, by halves. */
+inline void add_sampled_light(HalfLight* light, __global const float4* sums, float3 reflected, float samples) {
+    const float4 half0 = sums[0].w > 0.0f ? sums[0] : sums[1], half1 = sums[1].w > 0.0f ? sums[1] : sums[0];
+    const float unshadowed = sums[0].y + sums[1].y;
+    if (!(unshadowed > 0.0f)) return;
+    const float scale = luminance(reflected) / samples * (sums[0].w + sums[1].w) / unshadowed;
+    light->halves[0].w += scale * half0.x / half0.w;
+    light->halves[1].w += scale * half1.x / half1.w;
+}
+
 __kernel void filter_none(__global const float* restrict places, __global const FilmPixel* restrict film,
                           __global const SurfaceSum* restrict sums,
                           __global const float4* restrict reflected,
+                          __global const float4* restrict signal_sums,
                           __global const float* restrict means, __global HalfLight* restrict light,
                           int width, int height) {
     const int pixel = (int)get_global_id(0);
@@ -191,9 +203,18 @@ __kernel void filter_none(__global const float* restrict places, __global const 
         const int surface = entry / WEDGE_SIGNALS, id = pixel * WEDGE_SURFACES + surface;
         if (!has_surface(&planes, places, surface, at)) break;
         const int signal = entry % WEDGE_SIGNALS;
+        const float samples = fmax(film[pixel].normal.w, 1.0f);
         add_light(result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal,
-                  get_means(&planes, means, surface, signal, at), fmax(film[pixel].normal.w, 1.0f));
+                  get_means(&planes, means, surface, signal, at), samples);
+        if (is_light(signal))
+            add_sampled_light(result + WEDGE_PART_DIRECT, signal_sums + 2 * (id * WEDGE_SIGNALS + signal),
+                              reflected[id * WEDGE_SHADOW_LIGHTS + signal].xyz, samples);
     }
+    if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
+        for (int h = 0; h < 2; ++h) {
+            float4* half_light = result[WEDGE_PART_INDIRECT].halves + h;
+            half_light->w = luminance(half_light->xyz);
+        }
     for (int part = 0; part < WEDGE_PARTS; ++part) light[pixel * WEDGE_PARTS + part] = result[part];
 }
 

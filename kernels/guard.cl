@@ -35,16 +35,21 @@ inline float drift_of(__global const float4* wide, __global const float4* narrow
     return dot_rgb(wide[0] - narrow[0], wide[1] - narrow[1]);
 }
 
-/* Radiance as sampled has the noise of the pixel's own light and colour, and that of how much of each
-   the samples happened to meet. Places in the pixel are a net, of which a half is one by chance of
+/* Radiance as sampled has the noise of light, and that of how much of each surface and colour samples
+   happened to meet. Both are told by luminance. Places in the pixel are a net, of which a half is one by chance of
    every two: halves are off to opposite sides. At a straight edge the error of all n has this over
    sqrt(n) of the mean square that n independent samples with that difference of halves would have
    (by simulation, n = 4 to 256, any direction and place). */
 #define WEDGE_EDGE_SHARE 0.5f
 
 inline float plain_noise(const float4* plain, __global const float4* own, float samples) {
-    const float4 edges = (plain[0] - plain[1]) - (own[0] - own[1]);
-    return noise_of(own) + 0.25f * WEDGE_EDGE_SHARE * rsqrt(samples) * dot_rgb(edges, edges);
+    const float4 sum = plain[0] + plain[1];
+    const float luminance_sum = luminance(sum.xyz);
+    if (!(luminance_sum > 0.0f)) return 0.0f;
+    const float light = own[0].w - own[1].w;
+    const float edges = luminance(plain[0].xyz - plain[1].xyz) - light;
+    const float square = light * light + WEDGE_EDGE_SHARE * rsqrt(samples) * edges * edges;
+    return 0.25f * square * dot_rgb(sum, sum) / (luminance_sum * luminance_sum);
 }
 
 /* `plain`: radiance as sampled, of both halves. `light`: by scale, `stride` apart. */

@@ -270,8 +270,8 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     0.0f);
     set_kernel_args(edge_noise_, film_, surface_sums_, ends_, guarded_, width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, means_, width, height);
-    set_kernel_args(filter_none_, places_, film_, surface_sums_, reflected_, means_, light_, width,
-                    height);
+    set_kernel_args(filter_none_, places_, film_, surface_sums_, reflected_, sums_, means_, light_,
+                    width, height);
     set_kernel_args(filter_x_, settings_, light_list_, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
     set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,

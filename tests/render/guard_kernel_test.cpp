@@ -38,7 +38,7 @@ struct Light {
     /// Scale 0, the pixel's own samples, is also what was sampled.
     void set(int pixel, int half, int scale, float value) {
         for (int part = 0; part < kParts; ++part)
-            at(scale, pixel, part).halves[half] = {value, value, value, 0};
+            at(scale, pixel, part).halves[half] = {value, value, value, scale == 0 ? value : 0};
         if (scale == 0) sample(pixel, half, value);
     }
 

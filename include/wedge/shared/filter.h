@@ -63,7 +63,8 @@ WEDGE_ASSERT_SIZE(SampledLight, 80);
 /* Parts of a pixel's light that are filtered apart: direct, then indirect, as far as a plan has
    signals of them. One of the parts, filtered, by halves of the pixel's samples. */
 typedef struct HalfLight {
-    float4 halves[2]; /* rgb, w: 0 */
+    float4 halves[2]; /* rgb, w: of the first scale, luminance with the noise that light has as it
+                         was sampled; else 0 */
 } HalfLight;
 WEDGE_ASSERT_SIZE(HalfLight, 32);
 
