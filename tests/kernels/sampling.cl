@@ -105,12 +105,12 @@ __kernel void eval_filter_weights(__global const float4* positions, __global con
     out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, along.xyz).s5);
 }
 
-/* in: turn; cosine; y, x. out: sine and cosine; arc_cosine; arc_of */
+/* in: turn; cosine; y, x. out: sine and cosine; arc_cosine4; arc_of */
 __kernel void eval_angles(__global const float4* in, uint count, __global float4* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     const float4 v = in[id];
-    out[id] = (float4)(sine_cosine(v.x), arc_cosine(v.y), arc_of(v.z, v.w));
+    out[id] = (float4)(sine_cosine(v.x), arc_cosine4(v.y).x, arc_of(v.z, v.w));
 }
 
 __kernel void eval_inverse_erf(__global const float4* in, uint count, __global float2* out) {

@@ -33,7 +33,7 @@ class SamplingKernels {
     std::vector<float4> light_points(const std::vector<shared::Light>& lights, float4 from,
                                      uint32_t seed, uint32_t count);
 
-    /// kernels/lib/angles.clh; `in`: turn; cosine; y, x. Sine and cosine; arc_cosine; arc_of.
+    /// kernels/lib/angles.clh; `in`: turn; cosine; y, x. Sine and cosine; arc_cosine4; arc_of.
     std::vector<float4> angles(const std::vector<float4>& in);
     /// inverse_erf of in[i].x.
     std::vector<float2> inverse_erf(const std::vector<float4>& in);
