@@ -150,8 +150,8 @@ inline void filter_line(const Filter* filter, const Group* group, Line line, int
     vstore8(sums.v7 * share, 0, filtered[7]);
 }
 
-/* Adds what a surface makes of a signal's means to the pixel's parts. Where none of a half's samples met the surface, the other half stands
-   in. `samples`: of the whole pixel. */
+/* Adds what a surface makes of a signal's means to the pixel's parts. Where none of a half's samples met the surface,
+   the other half stands in. `samples`: of the whole pixel. */
 inline void add_light(HalfLight* light, __global const SurfaceSum* sum, __global const float4* reflected,
                       int signal, float8 means, float samples) {
     const float share = 1.0f / samples;
