@@ -37,9 +37,9 @@ inline float drift_of(__global const float4* wide, __global const float4* narrow
 
 /* Radiance as sampled has the noise of light, and that of how much of each surface and colour samples
    happened to meet. Both are told by luminance. Places in the pixel are a net, of which a half is one
-   by chance of every two: halves are off to opposite sides. At a straight edge the error of all n has
-   this over sqrt(n) of the mean square that n independent samples with that difference of halves
-   would have (by simulation, n = 4 to 256, any direction and place). */
+   by chance of every two: halves are off to opposite sides. A quarter of their squared difference,
+   which is the mean square error were samples independent, is too much at edges: at a straight one
+   this over sqrt(n) of it is (by simulation, n = 4 to 256, any direction and place). */
 #define WEDGE_EDGE_SHARE 0.5f
 
 inline float plain_noise(const float4* plain, __global const float4* own, float samples) {
