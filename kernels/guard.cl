@@ -49,7 +49,8 @@ inline float plain_noise(const float4* plain, __global const float4* own, float 
     const float light = own[0].w - own[1].w;
     const float edges = luminance(plain[0].xyz - plain[1].xyz) - light;
     const float square = light * light + WEDGE_EDGE_SHARE * rsqrt(samples) * edges * edges;
-    return 0.25f * square * dot_rgb(sum, sum) / (luminance_sum * luminance_sum);
+    const float4 colour = sum / luminance_sum; /* first: squares may have no place in a float */
+    return 0.25f * square * dot_rgb(colour, colour);
 }
 
 /* `plain`: radiance as sampled, of both halves. `light`: by scale, `stride` apart. */

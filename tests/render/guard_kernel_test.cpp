@@ -54,13 +54,14 @@ struct Light {
     }
 };
 
-std::vector<shared::GuardedPixel> run_guard(const Light& light) {
+std::vector<shared::GuardedPixel> run_guard(const Light& light,
+                                            int mode = WEDGE_FILTER_MODE_GUARDED) {
     device::Device device;
     const device::ProgramRequest request{"kernels/guard.cl",
                                          {"WEDGE_SHADOW_LIGHTS=1", "WEDGE_FILTER_HEMISPHERE=1"}};
     const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
     shared::FilterSettings settings{};
-    settings.mode = WEDGE_FILTER_MODE_GUARDED;
+    settings.mode = mode;
     settings.doubt = 1;
     const auto upload = [&](const auto& items, const char* what) {
         return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), what,
@@ -110,6 +111,27 @@ TEST_CASE("noise_alone_is_filtered") {
         CHECK(width > 0.95);
     CHECK(corner.error / middle.error > 0.6);  // there are fewer pixels to average over
     CHECK(corner.error / middle.error < 1.6);
+}
+
+TEST_CASE("noise_of_samples_goes_with_their_brightness") {
+    // Up to where its square, and down to where that of what is sampled, has no place in a float.
+    for (float brightness : {1e-30f, 1e-12f, 1.0f, 1e12f}) {
+        Light light;
+        std::mt19937 random(4);
+        std::normal_distribution<float> noise(0, kNoise);
+        for (int i = 0; i < kPixels; ++i)
+            for (int half = 0; half < 2; ++half)
+                light.set(i, half, 0, brightness * (1 + noise(random)));
+        double error = 0;
+        for (const auto& pixel : run_guard(light, WEDGE_FILTER_MODE_NONE))
+            error += double(pixel.error.x) / kPixels;
+        CAPTURE(brightness);
+        const double square = double(brightness) * double(brightness);
+        if (brightness < 1e-20f)
+            CHECK(error == 0);
+        else
+            CHECK(error / square == doctest::Approx(0.5 * kNoise * kNoise).epsilon(0.15));
+    }
 }
 
 TEST_CASE("a_bright_pixel_leaves_its_neighbours_filtered") {
