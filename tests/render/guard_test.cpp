@@ -44,10 +44,11 @@ TEST_CASE("more_samples_overrule_a_filter_that_is_too_wide") {
 }
 
 /// What the layer tells over what is true, without emission, whose error it does not know.
-double told_over_true(const Scene& scene) {
+double told_over_true(const Scene& scene, FilterMode filter = FilterMode::guarded) {
     const Image truth = render(scene, quick(1024, 1, Sampler::sobol, 9)).image;
     RenderOptions options = filtered(1);
     options.bounces = 1;
+    options.filter = filter;
     const Image image = render(scene, options).image;
     double told = 0;
     for (double e : channel_values(image, "error")) told += e * e;
@@ -79,6 +80,15 @@ TEST_CASE("without_filters_the_error_of_what_was_sampled_is_told") {
     options.filter = FilterMode::none;
     const Frame frame = render(scene, options);
     const double ratio = frame.stats.estimated_error->rmse / rmse(frame.image, truth);
+    CAPTURE(ratio);
+    CHECK(ratio > 0.75);
+    CHECK(ratio < 1.35);
+}
+
+TEST_CASE("without_filters_the_error_of_indirect_light_is_told") {
+    Scene scene = make_room(0);
+    scene.film = {64, 48};
+    const double ratio = told_over_true(scene, FilterMode::none);
     CAPTURE(ratio);
     CHECK(ratio > 0.75);
     CHECK(ratio < 1.35);
