@@ -69,7 +69,7 @@ typedef struct HalfLight {
 WEDGE_ASSERT_SIZE(HalfLight, 32);
 
 /* Filters that the guard chooses from, by the share of the width that theory asks for; the first
-   leaves each pixel to its own samples. Light is kept at (scale * pixels + pixel) * parts + part. */
+   leaves each pixel to its own samples. Light is at (scale * pixels + pixel) * parts + part. */
 #define WEDGE_SCALES 4
 #define WEDGE_SCALE_WIDTHS \
     { 0.0f, 0.25f, 0.5f, 1.0f }
