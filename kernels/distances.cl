@@ -44,11 +44,11 @@ __kernel void filter_surfaces(__global const FrameParams* restrict params,
 }
 
 /* Variance from one sample to the next, unbiased, of whether a light is seen: at most 1/4. Below 0:
-   too few samples. */
+   too few samples, or all of them black. */
 inline float visibility_variance(float4 sums) {
     const float n = sums.w, seen = sums.x / sums.y;
-    if (!(n > 1.0f)) return -1.0f;
-    return sums.y > 0.0f ? seen * (1.0f - seen) * n / (n - 1.0f) : 0.0f;
+    if (!(n > 1.0f && sums.y > 0.0f)) return -1.0f;
+    return seen * (1.0f - seen) * n / (n - 1.0f);
 }
 
 /* The same of light from the hemisphere, told by the difference of two halves. */

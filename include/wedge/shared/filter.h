@@ -1,10 +1,11 @@
 /* What axis-aligned filtering keeps of a pixel's samples.
 
    A pixel may show more than one surface; its samples are told apart, so that each surface is
-   filtered with its like. Light is kept as signals, which are smooth along a surface where its
-   colour need not be: irradiance by each filtered light, with and without shadow, then irradiance
-   from the hemisphere, then what the lobe reflects of the hemisphere. Samples are summed in two
-   halves, whose difference tells the error.
+   filtered with its like. Light is kept as signals, which tell what is smooth along a surface where
+   its colour need not be: luminance that is reflected of each filtered light, with and without
+   shadow, whose ratio is how much of the light is seen; then irradiance from the hemisphere, then
+   what the lobe reflects of the hemisphere. Samples are summed in two halves, whose difference
+   tells the error.
 
    Arrays: surfaces at pixel * WEDGE_SURFACES + surface; signals at that * signals + signal; sums of
    signals at that * 2 + half. */
@@ -118,7 +119,7 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 #define WEDGE_FOUND_PLANES 3
 
 /* Means of signals over a pixel's samples, in planes, those of one surface after those of another:
-   by filtered light irradiance with and without shadow, of the first half, then of the second; then
+   by filtered light luminance with and without shadow, of the first half, then of the second; then
    of signals from the hemisphere rgb and the share of the pixel, of both halves. */
 #define WEDGE_LIGHT_PLANES 4
 #define WEDGE_HEMISPHERE_PLANES 8
