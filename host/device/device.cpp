@@ -7,28 +7,14 @@
 
 #include "host/device/discovery.hpp"
 #include "host/device/status.hpp"
+#include "host/device/zero_pages.hpp"
 #include "wedge/error.hpp"
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace wedge::device {
 namespace {
 
 // Smaller buffers have no room for a large page.
 constexpr uint64_t kLargePagesFrom_bytes = uint64_t(2) << 20;
-
-/// Pages of 2 MiB in place of 4 KiB for memory that has not been touched yet. A hint, which may be
-/// ignored.
-void ask_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] uint64_t bytes) {
-#ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t kPage = 4096;
-    const auto first = (reinterpret_cast<std::uintptr_t>(memory) + kPage - 1) / kPage * kPage;
-    const auto last = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
-    if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
-#endif
-}
 
 constexpr uint64_t kEmptyBufferBytes =
     16;  // OpenCL has no buffers of 0 bytes; one float4 suits all
@@ -72,7 +58,8 @@ bool Device::is_pocl() const {
     return info_.platform == "Portable Computing Language";
 }
 
-cl::Buffer Device::allocate(uint64_t bytes, const std::string& what, cl_mem_flags flags) {
+cl::Buffer Device::create(uint64_t bytes, const std::string& what,
+                          const std::function<cl::Buffer(uint64_t size)>& make) {
     if (bytes > info_.largest_buffer_bytes) {
         throw Error(
             ErrorKind::device,
@@ -83,9 +70,8 @@ cl::Buffer Device::allocate(uint64_t bytes, const std::string& what, cl_mem_flag
     }
     const uint64_t size = std::max(bytes, kEmptyBufferBytes);
     try {
-        cl::Buffer buffer(context_, flags, size);
-        allocated_bytes_ += size;
-        prefer_large_pages(buffer, size);
+        cl::Buffer buffer = make(size);
+        if (buffer()) allocated_bytes_ += size;
         return buffer;
     } catch (const cl::Error& error) {
         throw_status(info_.name,
@@ -93,6 +79,25 @@ cl::Buffer Device::allocate(uint64_t bytes, const std::string& what, cl_mem_flag
                                  mebibytes(size), what, mebibytes(allocated_bytes_)),
                      error.err());
     }
+}
+
+cl::Buffer Device::allocate(uint64_t bytes, const std::string& what, cl_mem_flags flags) {
+    return create(bytes, what, [&](uint64_t size) {
+        cl::Buffer buffer(context_, flags, size);
+        prefer_large_pages(buffer, size);
+        return buffer;
+    });
+}
+
+cl::Buffer Device::allocate_zeros(uint64_t bytes, const std::string& what) {
+    if (info_.type == DeviceType::cpu && bytes >= kLargePagesFrom_bytes) {
+        const cl::Buffer buffer =
+            create(bytes, what, [&](uint64_t size) { return zero_pages(context_, size); });
+        if (buffer()) return buffer;
+    }
+    cl::Buffer buffer = allocate(bytes, what);
+    if (bytes > 0) fill_with_zeros(buffer, bytes, what);
+    return buffer;
 }
 
 void Device::prefer_large_pages(const cl::Buffer& buffer, uint64_t bytes) {
@@ -107,10 +112,10 @@ void Device::prefer_large_pages(const cl::Buffer& buffer, uint64_t bytes) {
     }
 }
 
-void Device::fill(const cl::Buffer& buffer, const void* pattern, std::size_t pattern_bytes,
-                  uint64_t bytes, const std::string& what) {
-    const cl_int status = clEnqueueFillBuffer(queue_(), buffer(), pattern, pattern_bytes, 0, bytes,
-                                              0, nullptr, nullptr);
+void Device::fill_with_zeros(const cl::Buffer& buffer, uint64_t bytes, const std::string& what) {
+    const cl_uchar zero = 0;
+    const cl_int status =
+        clEnqueueFillBuffer(queue_(), buffer(), &zero, sizeof(zero), 0, bytes, 0, nullptr, nullptr);
     if (status != CL_SUCCESS)
         throw_status(info_.name, fmt::format("fill {:.1f} MiB for {}", mebibytes(bytes), what),
                      status);

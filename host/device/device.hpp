@@ -3,6 +3,7 @@
 
 #include <CL/opencl.hpp>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,17 +36,9 @@ class Device {
     cl::Buffer allocate(uint64_t bytes, const std::string& what,
                         cl_mem_flags flags = CL_MEM_READ_WRITE);
 
-    /// The same, all bits 0.
-    cl::Buffer allocate_zeros(uint64_t bytes, const std::string& what) {
-        return allocate_filled(bytes, cl_uchar(0), what);
-    }
-    /// The same, filled with copies of `pattern`; its size is a power of two, at most 128 bytes.
-    template <typename T>
-    cl::Buffer allocate_filled(uint64_t bytes, const T& pattern, const std::string& what) {
-        cl::Buffer buffer = allocate(bytes, what);
-        if (bytes > 0) fill(buffer, &pattern, sizeof(pattern), bytes, what);
-        return buffer;
-    }
+    /// The same, all bits 0. Where the device's memory is the host's, pages are there only once
+    /// they are touched.
+    cl::Buffer allocate_zeros(uint64_t bytes, const std::string& what);
 
     /// Allocates and fills; kernels may only read it, unless `flags` say otherwise.
     template <typename T>
@@ -72,8 +65,10 @@ class Device {
     uint64_t allocated_bytes() const { return allocated_bytes_; }
 
   private:
-    void fill(const cl::Buffer& buffer, const void* pattern, std::size_t pattern_bytes,
-              uint64_t bytes, const std::string& what);
+    cl::Buffer create(uint64_t bytes, const std::string& what,
+                      const std::function<cl::Buffer(uint64_t size)>& make);
+
+    void fill_with_zeros(const cl::Buffer& buffer, uint64_t bytes, const std::string& what);
 
     /// Where the device's memory is the host's: rays jump about in it, and large pages take less
     /// time to be found and to be had.

@@ -165,7 +165,10 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
       light_list_(tracer.lights()),
       params_(tracer.params()),
       film_(tracer.film()) {
+    Stopwatch watch;
     allocate(settings);
+    device_.finish();
+    stats.upload_s += watch.lap();
     compile(plan, kernel_dir, stats);
     const cl::Buffer kept[] = {settings_,  surface_sums_, sums_,        distances_,
                                reflected_, unfiltered_,   sample_ends_, pixel_list_};
@@ -192,9 +195,7 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     };
     surface_sums_ = zeros(surfaces, sizeof(shared::SurfaceSum), "surfaces of pixels");
     sums_ = zeros(2 * entries, sizeof(shared::float4), "signals");
-    const shared::DistanceRange nothing{INFINITY, 0, 0, 0};
-    distances_ =
-        device_.allocate_filled(entries * sizeof(shared::DistanceRange), nothing, "distances");
+    distances_ = zeros(entries, sizeof(shared::DistanceRange), "distances");
     reflected_ = zeros(surfaces * lights_, sizeof(shared::float4), "unshadowed light");
     unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");

@@ -44,7 +44,7 @@ WEDGE_ASSERT_SIZE(SampleEnds, 16);
    to occluders, along its normal. Of the hemisphere: from the surface to what it sees. World units.
  */
 typedef struct DistanceRange {
-    float nearest;  /* +inf: nothing found */
+    float nearest;  /* meaningless if nothing was found */
     float farthest; /* 0: nothing found */
     float receiver; /* lights: from light to receiver, summed over probe samples */
     float samples;  /* probe samples */
