@@ -41,7 +41,6 @@ inline float8 get_means(const Planes* planes, __global const float* means, int s
     return vload8(0, list);
 }
 
-/* Surfaces that are not there keep means of 0. */
 __kernel void filter_means(__global const SampledLight* restrict unfiltered,
                            __global const float* restrict places, __global const float4* restrict sums,
                            __global float* restrict means, int width, int height) {
@@ -97,18 +96,24 @@ typedef struct {
     float8 v0, v1, v2, v3, v4, v5, v6, v7;
 } Means8;
 
-inline void add_means8(Means8* sums, float8 weights, const Filter* filter, int surface, int signal, ulong at) {
+inline float8 add_lanes(float8 sums, float8 weights, int8 counts, __global const float* values) {
+    return select(sums, sums + weights * vload8(0, values), counts);
+}
+
+/* Where nothing counts there may be anything. */
+inline void add_means8(Means8* sums, float8 weights, int8 counts, const Filter* filter, int surface, int signal,
+                       ulong at) {
     const ulong size = filter->planes.size;
     __global const float* v = filter->signals + first_plane(surface, signal) * size + at;
-    sums->v0 += weights * vload8(0, v);
-    sums->v1 += weights * vload8(0, v + size);
-    sums->v2 += weights * vload8(0, v + 2 * size);
-    sums->v3 += weights * vload8(0, v + 3 * size);
+    sums->v0 = add_lanes(sums->v0, weights, counts, v);
+    sums->v1 = add_lanes(sums->v1, weights, counts, v + size);
+    sums->v2 = add_lanes(sums->v2, weights, counts, v + 2 * size);
+    sums->v3 = add_lanes(sums->v3, weights, counts, v + 3 * size);
     if (is_light(signal)) return;
-    sums->v4 += weights * vload8(0, v + 4 * size);
-    sums->v5 += weights * vload8(0, v + 5 * size);
-    sums->v6 += weights * vload8(0, v + 6 * size);
-    sums->v7 += weights * vload8(0, v + 7 * size);
+    sums->v4 = add_lanes(sums->v4, weights, counts, v + 4 * size);
+    sums->v5 = add_lanes(sums->v5, weights, counts, v + 5 * size);
+    sums->v6 = add_lanes(sums->v6, weights, counts, v + 6 * size);
+    sums->v7 = add_lanes(sums->v7, weights, counts, v + 7 * size);
 }
 
 /* Means over a line, by weight, of one signal of one surface of a group's pixels, plane by plane. */
@@ -121,7 +126,7 @@ inline void filter_line(const Filter* filter, const Group* group, Line line, int
     const float3 along = filter_axis(filter, signal);
     float8 weights = 1.0f;
     Means8 sums = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    add_means8(&sums, weights, filter, surface, signal, group->at);
+    add_means8(&sums, weights, p.size > 0.0f, filter, surface, signal, group->at);
 
     const int radius = (int)largest_lane(reach);
     for (int i = -min(radius, line.before); i <= min(radius, line.after); ++i) {
@@ -134,8 +139,9 @@ inline void filter_line(const Filter* filter, const Group* group, Line line, int
             if (!lane_bits8(is_there)) break;
             const float8 sigma_q = filter_sigma8(filter, other * WEDGE_SIGNALS + signal, at);
             const float8 w = keep_lanes(filter_weight8(&p, sigma, &q, sigma_q, along), is_there);
-            if (!lane_bits8(w > 0.0f)) continue;
-            add_means8(&sums, w, filter, other, signal, at);
+            const int8 counts = w > 0.0f;
+            if (!lane_bits8(counts)) continue;
+            add_means8(&sums, w, counts, filter, other, signal, at);
             weights += w;
         }
     }

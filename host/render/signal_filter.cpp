@@ -83,10 +83,11 @@ uint64_t mean_planes(uint64_t lights, uint64_t signals) {
     return WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signals - lights);
 }
 
-/// Of a pixel; what was found gives its place to the errors of filters.
-uint64_t found_planes(uint64_t signals, uint64_t parts) {
-    return std::max(WEDGE_SURFACES * signals * WEDGE_FOUND_PLANES,
-                    parts * sizeof(shared::ScaleErrors) / sizeof(float));
+/// Of a pixel, for what was found, then for means of signals, then for the errors of filters.
+uint64_t shared_planes(uint64_t lights, uint64_t signals, uint64_t parts) {
+    return std::max({WEDGE_SURFACES * signals * WEDGE_FOUND_PLANES,
+                     WEDGE_SURFACES * mean_planes(lights, signals),
+                     parts * sizeof(shared::ScaleErrors) / sizeof(float)});
 }
 
 template <typename T>
@@ -137,13 +138,12 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
         {"surfaces of pixels",
          surfaces * (sizeof(shared::SurfaceSum) + WEDGE_PLACE_PLANES * sizeof(float))},
         {"signals, sampled", entries * 2 * sizeof(shared::float4)},
-        {"signals, filtered",
-         surfaces * 2 * mean_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals)) *
+        {"distances", entries * sizeof(shared::DistanceRange)},
+        {"distances, then signals, then errors of filters",
+         2 * pixels *
+             shared_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals),
+                           uint64_t(plan_parts(plan))) *
              sizeof(float)},
-        {"distances", entries * sizeof(shared::DistanceRange) +
-                          2 * pixels *
-                              found_planes(uint64_t(plan.signals), uint64_t(plan_parts(plan))) *
-                              sizeof(float)},
         {"filter widths", entries * sizeof(float)},
         {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
         {"light before and after filters",
@@ -219,16 +219,13 @@ void SignalFilter::allocate_planes() {
         return device_.allocate_zeros(bytes(count), what);
     };
     places_ = zeros(surfaces * WEDGE_PLACE_PLANES, "places of surfaces");
-    means_ = zeros(surfaces * mean_planes(lights_, signals_), "means of signals");
-    filtered_ = zeros(surfaces * mean_planes(lights_, signals_), "half-filtered signals");
     ends_ = planes(1, "edges of surfaces");
     sigmas_ = zeros(entries, "filter widths");
-    const uint64_t found = found_planes(signals_, parts_);
-    found_ = planes(found, "slopes and depths");
-    near_by_ = planes(found, "slopes and depths near by");
-    // Memory costs time when it is touched first; by the time of errors nobody needs these.
-    errors_ = found_;
-    smoothed_ = near_by_;
+    // Memory costs time when it is touched first, and each of these is needed when the one before
+    // is not any more.
+    const uint64_t count = shared_planes(lights_, signals_, parts_);
+    found_ = means_ = errors_ = planes(count, "slopes and depths, means of signals, errors");
+    near_by_ = filtered_ = smoothed_ = planes(count, "the same of pixels near by");
 }
 
 void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats) {

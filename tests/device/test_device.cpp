@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
 #include <numeric>
 #include <string>
 #include <type_traits>
@@ -44,6 +45,53 @@ TEST_CASE("empty_buffers_can_be_had_filled_and_read") {
     CHECK(buffer() != nullptr);
     device.download(buffer, nullptr, 0);
     CHECK(device.allocated_bytes() > 0);
+}
+
+TEST_CASE("zeros_are_zero_and_can_be_written") {
+    Device device;
+    const TemporaryFolder tree;
+    cl::Kernel kernel = build_kernel(device, tree,
+                                     "kernel void test(global uint* a, uint count) {\n"
+                                     "    const uint i = get_global_id(0);\n"
+                                     "    if (i < count && i % 5 == 0) a[i] += i + 1;\n"
+                                     "}\n");
+    // Small ones, and ones that have pages of their own, whole or not.
+    for (const uint32_t count : {0u, 1u, 1000u, 1u << 19, (1u << 19) + 1, 3'000'001u}) {
+        const cl::Buffer buffer = device.allocate_zeros(count * uint64_t(4), "zeros");
+        std::vector<uint32_t> before(count, 1), after(count);
+        device.download(buffer, before.data(), count * uint64_t(4));
+        kernel.setArg(0, buffer);
+        kernel.setArg(1, count);
+        device.launch(kernel, count);
+        device.download(buffer, after.data(), count * uint64_t(4));
+        bool zero = true, written = true;
+        for (uint32_t i = 0; i < count; ++i) {
+            zero &= before[i] == 0;
+            written &= after[i] == (i % 5 == 0 ? i + 1 : 0);
+        }
+        CHECK_MESSAGE(zero, count);
+        CHECK_MESSAGE(written, count);
+    }
+}
+
+TEST_CASE("zeros_leave_no_memory_behind") {
+    const auto address_space_kb = [] {
+        std::ifstream status("/proc/self/status");
+        for (std::string line; std::getline(status, line);)
+            if (line.starts_with("VmSize:")) return std::stol(line.substr(7));
+        return 0l;
+    };
+    if (address_space_kb() == 0) {
+        MESSAGE("skipped: zeros_leave_no_memory_behind: no /proc");
+        return;
+    }
+    Device device;
+    device.allocate_zeros(64 << 20, "zeros");
+    device.finish();
+    const long before = address_space_kb();
+    for (int i = 0; i < 20; ++i) device.allocate_zeros(64 << 20, "zeros");
+    device.finish();
+    CHECK(address_space_kb() - before < 2 * 64 * 1024);
 }
 
 TEST_CASE("every_item_runs_once_whatever_count_and_local_size") {
