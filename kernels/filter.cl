@@ -183,14 +183,15 @@ inline HalfLight no_light(void) {
 }
 
 /* Adds a light's part of HalfLight's w. The ratio to unshadowed light that filters go by has less noise than light as
-   it was sampled, of which this is the mean over samples that met the surface. `sums`: of the signal, by halves. */
-inline void add_sampled_light(HalfLight* light, __global const float4* sums, float3 reflected, float samples) {
+   it was sampled, of which this is the mean over samples that met the surface, as its mean colour reflects it. `sums`:
+   of the signal, by halves. */
+inline void add_sampled_light(HalfLight* light, __global const float4* sums, __global const SurfaceSum* surface,
+                              float samples) {
     const float4 half0 = sums[0].w > 0.0f ? sums[0] : sums[1], half1 = sums[1].w > 0.0f ? sums[1] : sums[0];
-    const float unshadowed = sums[0].y + sums[1].y;
-    if (!(unshadowed > 0.0f)) return;
-    const float scale = luminance(reflected) / samples * (sums[0].w + sums[1].w) / unshadowed;
-    light->halves[0].w += scale * half0.x / half0.w;
-    light->halves[1].w += scale * half1.x / half1.w;
+    if (!(half0.w > 0.0f)) return;
+    const float scale = luminance(surface->diffuse.xyz) * WEDGE_INV_PI / samples;
+    light->halves[0].w += scale * half0.z / half0.w;
+    light->halves[1].w += scale * half1.z / half1.w;
 }
 
 __kernel void filter_none(__global const float* restrict places, __global const FilmPixel* restrict film,
@@ -213,8 +214,8 @@ __kernel void filter_none(__global const float* restrict places, __global const 
         add_light(result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal,
                   get_means(&planes, means, surface, signal, at), samples);
         if (is_light(signal))
-            add_sampled_light(result + WEDGE_PART_DIRECT, signal_sums + 2 * (id * WEDGE_SIGNALS + signal),
-                              reflected[id * WEDGE_SHADOW_LIGHTS + signal].xyz, samples);
+            add_sampled_light(result + WEDGE_PART_DIRECT, signal_sums + 2 * (id * WEDGE_SIGNALS + signal), sums + id,
+                              samples);
     }
     if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
         for (int h = 0; h < 2; ++h) {

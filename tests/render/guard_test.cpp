@@ -73,16 +73,38 @@ TEST_CASE("the_error_layer_tells_the_error") {
     }
 }
 
-TEST_CASE("without_filters_the_error_of_what_was_sampled_is_told") {
-    const Scene scene = make_penumbra(LightProfile::uniform);
+/// The same of the number that a render ends with, for direct light without filters.
+double told_over_true_unfiltered(const Scene& scene) {
     const Image truth = render(scene, quick(2048, 0, Sampler::lattice, 9)).image;
     RenderOptions options = filtered(0.5f);
     options.filter = FilterMode::none;
     const Frame frame = render(scene, options);
-    const double ratio = frame.stats.estimated_error->rmse / rmse(frame.image, truth);
+    return frame.stats.estimated_error->rmse / rmse(frame.image, truth);
+}
+
+TEST_CASE("without_filters_the_error_of_what_was_sampled_is_told") {
+    const double ratio = told_over_true_unfiltered(make_penumbra(LightProfile::uniform));
     CAPTURE(ratio);
     CHECK(ratio > 0.75);
     CHECK(ratio < 1.35);
+}
+
+TEST_CASE("without_filters_colours_inside_pixels_are_no_noise_of_light") {
+    // Ground of dark and bright stripes: samples of a pixel are spread evenly over both sides of an
+    // edge, and light is as noisy on both.
+    Scene scene = make_penumbra(LightProfile::uniform);
+    std::vector<Mesh> meshes = {scene.meshes[1]};
+    constexpr float width = 0.16f;
+    for (int i = -25; i < 25; ++i)
+        meshes.push_back(make_quad({width * float(i), 0, -4}, {0, 0, 8}, {width, 0, 0}, i & 1));
+    Scene striped = make_scene(meshes, {lambert(0.1f), lambert(0.8f)});
+    striped.film = scene.film;
+    striped.camera = scene.camera;
+    striped.rect_lights = scene.rect_lights;
+    const double ratio = told_over_true_unfiltered(striped);
+    CAPTURE(ratio);
+    CHECK(ratio > 0.75);
+    CHECK(ratio < 1.6);
 }
 
 TEST_CASE("without_filters_the_error_of_indirect_light_is_told") {
