@@ -140,6 +140,23 @@ TEST_CASE("rounds_that_do_not_fit_are_not_begun") {
     CHECK(frame.stats.estimated_error.has_value());
 }
 
+TEST_CASE("progress_goes_on_through_both_looks") {
+    Scene scene = make_penumbra(LightProfile::uniform);
+    scene.film = {32, 24};
+    std::vector<Progress> steps;
+    RenderOptions options = filtered(4);
+    options.tile_pixels = 200;
+    options.on_progress = [&](const Progress& p) { steps.push_back(p); };
+    render(scene, options);
+    REQUIRE(steps.size() > 10);
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+        CHECK(steps[i].samples_done >= steps[i - 1].samples_done);
+        CHECK(steps[i].elapsed_s >= steps[i - 1].elapsed_s);
+        CHECK(steps[i - 1].samples_done < steps[i - 1].samples_total);
+    }
+    CHECK(steps.back().samples_done == steps.back().samples_total);
+}
+
 // Samples are limited: filters that go on narrowing would leave noise.
 TEST_CASE("few_samples_stop_the_rise_of_mu") {
     RenderOptions options = with_target(1e-9);
