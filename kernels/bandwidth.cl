@@ -204,8 +204,8 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
     const float relative = radiance_variance(sum, reflected, signal, fmax(found.z, 0.0f)) / bright;
     if (!(bandwidth.y > 0.0f && relative > 0.0f)) return need;
     const float pixels = 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (size * slanted_size);
-    need.samples = fmax(fmin(4.0f * relative, 1.0f) * bandwidth.y,
-                        noise_samples(settings->mu, relative, pixels));
+    need.samples = WEDGE_LIGHT_RAY_SHARE * fmax(fmin(4.0f * relative, 1.0f) * bandwidth.y,
+                                                noise_samples(settings->mu, relative, pixels));
     return need;
 }
 

@@ -7,6 +7,7 @@
    eq. 9.8).
 
    WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
+   WEDGE_LIGHT_RAYS: where paths end at the first hit, how often each looks at the lights.
    WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for filtering
    (lib/signals.clh, filter.cl), beside the plain estimate. WEDGE_OTHER_LIGHTS: not all lights are
    filtered.
@@ -61,6 +62,24 @@ inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f,
     const float weight = weighted && !light.is_point ? light.pdf / (light.pdf + pdf_bsdf) : 1.0f;
     return value * light.radiance * (dot(s->normal, wi) * weight / light.pdf);
 }
+
+#if WEDGE_LIGHT_RAYS > 1
+/* The mean over all rays that a first hit sends to the lights from `first_light` on. */
+inline float3 sample_direct_often(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
+                                  uint first_light, const Sampler* sampler, bool weighted,
+                                  PathResult* result) {
+    float3 direct = (float3)(0.0f);
+    for (uint part = 0; part < WEDGE_LIGHT_RAYS; ++part) {
+        const Sampler own = part_of(sampler, WEDGE_LIGHT_RAYS, part);
+        const float2 u = draw_2d(&own, vertex_dimension(0, WEDGE_VERTEX_LIGHT));
+        const float which = scene->light_count > first_light + 1
+                                ? draw_2d(&own, vertex_dimension(0, WEDGE_VERTEX_CHOICE)).x
+                                : 0.0f;
+        direct += sample_direct(scene, s, f, wo, first_light, which, u, weighted, result);
+    }
+    return direct * WEDGE_LIGHT_RAY_SHARE;
+}
+#endif
 
 /* What becomes of light that reaches the first hit along the scattered ray. */
 typedef struct {
@@ -213,7 +232,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         const bool goes_on =
             depth < bounces || f.specular_chance > 0.0f || params->search_lights != 0;
         const float2 choice =
-            goes_on || scene->light_count > 1
+            goes_on || (WEDGE_LIGHT_RAYS == 1 && scene->light_count > 1)
                 ? draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE))
                 : (float2)(0.0f);
         float3 direct = (float3)(0.0f);
@@ -223,17 +242,22 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             first_light = WEDGE_SHADOW_LIGHTS;
             direct = sample_shadow_lights(scene, &s, &f, wo, sampler, surface, signals,
                                           &result.filtered_direct);
-            result.rays += WEDGE_SHADOW_LIGHTS;
+            result.rays += WEDGE_SHADOW_LIGHTS * WEDGE_LIGHT_RAYS;
         }
 #endif
         if (scene->light_count > first_light) {
             const Sampler* light_sampler = WEDGE_LIGHT_SAMPLER;
+#if WEDGE_LIGHT_RAYS > 1
+            direct += sample_direct_often(scene, &s, &f, wo, first_light, light_sampler, goes_on,
+                                          &result);
+#else
             const float2 u = draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
             const float which =
                 light_sampler == sampler
                     ? choice.x
                     : draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
             direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on, &result);
+#endif
         }
         if (depth == 0)
             result.direct += direct;

@@ -74,6 +74,9 @@ std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
         {"hard shadows", points ? "Monte Carlo" : "none",
          points ? fmt::format("{} point lights: nothing to filter", scene.point_lights.size())
                 : "no point lights"});
+    if (plan.light_rays > 1)
+        lines.push_back({"light rays", fmt::format("{} a sample", plan.light_rays),
+                         "paths end at the first hit, and to get there costs most"});
     lines.push_back(
         {"textures", plan.textures ? "yes" : "none",
          plan.textures ? "multiplied after filters" : "no visible material has an image"});

@@ -53,6 +53,18 @@ void choose_shadow_lights(const Scene& scene, Plan& plan) {
     plan.other_lights = filtered < (1 - kNegligiblePower) * all;
 }
 
+/// What remains of a path that ends at its first hit is to look at lights, which costs less than to
+/// get there. Not so where it goes on: for bounces, a lobe, or light that must be searched for.
+constexpr int kLightRaysAtEnds = 2;
+
+int light_rays(const Scene& scene, const Plan& plan, int bounces) {
+    double rects = 0;
+    for (const ShiningRect& rect : find_shining_rects(scene)) rects += light_power(rect.light);
+    const bool searches = shining_power(scene) > (1 + kNegligiblePower) * rects;
+    if (searches || plan.specular || has_hemisphere_light(scene, bounces)) return 1;
+    return rects > 0 || !scene.rect_lights.empty() ? kLightRaysAtEnds : 1;
+}
+
 }  // namespace
 
 bool has_hemisphere_light(const Scene& scene, int bounces) {
@@ -75,6 +87,9 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
     if (plan.specular) plan.path_program.defines.push_back("WEDGE_SPECULAR=1");
     if (plan.textures) plan.path_program.defines.push_back("WEDGE_TEXTURES=1");
     if (plan.normal_maps) plan.path_program.defines.push_back("WEDGE_NORMAL_MAPS=1");
+    plan.light_rays = light_rays(scene, plan, bounces);
+    if (plan.light_rays > 1)
+        plan.path_program.defines.push_back("WEDGE_LIGHT_RAYS=" + std::to_string(plan.light_rays));
     if (method == Method::aaf) {
         choose_shadow_lights(scene, plan);
         plan.hemisphere = has_hemisphere_light(scene, bounces);

@@ -17,6 +17,7 @@ struct Plan {
     int shadow_lights = 0;      ///< rectangles whose shadows are filtered
     bool other_lights = false;  ///< some lights are not among those
     bool hemisphere = false;    ///< indirect light and that of the background is filtered
+    int light_rays = 1;         ///< that the first hit of a path sends to each light it looks at
     int signals = 0;  ///< that are filtered, for each surface of a pixel; 0: plain Monte Carlo
     device::ProgramRequest path_program;
     std::vector<device::ProgramRequest> filter_programs;  ///< if signals > 0

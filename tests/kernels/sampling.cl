@@ -14,6 +14,16 @@ __kernel void draw_points(int kind, uint seed, int sequences, uint strata, uint 
                                                 : draw_2d(&s, dimension);
 }
 
+/* `parts` in the place of each sample. */
+__kernel void draw_parts(int kind, uint seed, int sequences, uint strata, uint pixel, uint parts,
+                         uint dimension, uint count, __global float2* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const Sampler s = make_sampler(kind, seed, sequences, strata, pixel, id / parts);
+    const Sampler p = part_of(&s, parts, id % parts);
+    out[id] = draw_2d(&p, dimension);
+}
+
 /* parameters: diffuse (grey), specular (grey), exponent, model; normal is +z. */
 inline Bsdf test_bsdf(float4 parameters) {
     Bsdf f;

@@ -30,6 +30,13 @@ std::vector<float2> SamplingKernels::points(int sampler, uint32_t seed, int sequ
                        pixel, first_sample, dimension, count);
 }
 
+std::vector<float2> SamplingKernels::parts(int sampler, uint32_t seed, int sequences,
+                                           uint32_t pixel, uint32_t parts, uint32_t dimension,
+                                           uint32_t count, uint32_t strata) {
+    return run<float2>("draw_parts", count, cl_int(sampler), seed, cl_int(sequences), strata, pixel,
+                       parts, dimension, count);
+}
+
 std::vector<float4> SamplingKernels::bsdf_directions(float4 parameters, float4 wo, uint32_t seed,
                                                      uint32_t count) {
     return run<float4>("sample_bsdf_directions", count, parameters, wo, seed, count);

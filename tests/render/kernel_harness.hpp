@@ -24,6 +24,10 @@ class SamplingKernels {
     std::vector<float2> points(int sampler, uint32_t seed, int sequences, uint32_t pixel,
                                uint32_t first_sample, uint32_t dimension, uint32_t count,
                                uint32_t strata = 1);
+    /// The same of the first `count` / `parts` samples, with `parts` in the place of each.
+    std::vector<float2> parts(int sampler, uint32_t seed, int sequences, uint32_t pixel,
+                              uint32_t parts, uint32_t dimension, uint32_t count,
+                              uint32_t strata = 1);
     /// Directions and weights f cos / pdf; `parameters`: diffuse, specular, exponent, model.
     std::vector<float4> bsdf_directions(float4 parameters, float4 wo, uint32_t seed,
                                         uint32_t count);

@@ -97,6 +97,31 @@ TEST_CASE("first_sobol_points_of_a_block_of_pixels_are_a_net_however_many_they_a
             }
 }
 
+TEST_CASE("samples_in_the_place_of_one_are_those_that_would_follow") {
+    SamplingKernels kernels;
+    const auto same = [](const std::vector<float2>& a, const std::vector<float2>& b) {
+        bool all = a.size() == b.size();
+        for (std::size_t i = 0; all && i < a.size(); ++i)
+            all = a[i].x == b[i].x && a[i].y == b[i].y;
+        return all;
+    };
+    for (int kind : {WEDGE_SAMPLER_SOBOL, WEDGE_SAMPLER_LATTICE})
+        for (uint32_t parts : {1u, 2u, 4u})
+            CHECK(same(kernels.parts(kind, 5, 1, 77, parts, 4, 32),
+                       kernels.points(kind, 5, 1, 77, 0, 4, 32)));
+    // Strata are as many more, and one sample is in each.
+    CHECK(same(kernels.parts(WEDGE_SAMPLER_STRATIFIED, 5, 1, 77, 2, 4, 32, 16),
+               kernels.points(WEDGE_SAMPLER_STRATIFIED, 5, 1, 77, 0, 4, 32, 32)));
+    // Halves of the samples have their own.
+    const auto halves = kernels.parts(WEDGE_SAMPLER_SOBOL, 5, 2, 77, 2, 4, 32);
+    const auto single = kernels.points(WEDGE_SAMPLER_SOBOL, 5, 2, 77, 0, 4, 32);
+    std::vector<float2> first;
+    for (std::size_t i = 0; i < halves.size(); i += 4) append(first, {halves[i], halves[i + 1]});
+    CHECK(same(first, every_second(single, 0)));
+    const auto independent = kernels.parts(WEDGE_SAMPLER_HASH, 5, 1, 77, 2, 4, 2);
+    CHECK(independent[0].x != independent[1].x);
+}
+
 /// Chi-square over its degrees of freedom, of the coarse cells of two dimensions that the first
 /// samples of a block of pixels fall into: 1 for independent pairs.
 double pairing_excess(SamplingKernels& kernels, uint32_t a, uint32_t b, uint32_t samples) {
