@@ -13,6 +13,7 @@
    filtered.
 
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
+#include "lib/direct_light.clh"
 #include "lib/film.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
@@ -41,45 +42,6 @@ inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     ray.source = WEDGE_NO_PRIMITIVE;
     return ray;
 }
-
-/* Light that arrives straight from a sampled light and is scattered to wo. `weighted`: the path
-   goes on and may meet the same light by itself. */
-inline float3 sample_direct(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
-                            uint first_light, float choice, float2 u, bool weighted,
-                            PathResult* result) {
-    const float3 none = (float3)(0.0f);
-    const LightSample light = sample_light(scene, first_light, s->position, choice, u);
-    const float3 wi = light.direction;
-    if (!(light.pdf > 0.0f) || !is_above(s, wi)) return none;
-    float pdf_bsdf;
-    const float3 value = eval_bsdf(f, s->normal, wo, wi, &pdf_bsdf);
-    if (!(max_component(value) > 0.0f)) return none;
-
-    const Ray shadow = shadow_ray(s, &light);
-    result->rays += 1;
-    if (trace_occluded(scene->tree, shadow)) return none;
-
-    const float weight = weighted && !light.is_point ? light.pdf / (light.pdf + pdf_bsdf) : 1.0f;
-    return value * light.radiance * (dot(s->normal, wi) * weight / light.pdf);
-}
-
-#if WEDGE_LIGHT_RAYS > 1
-/* The mean over all rays that a first hit sends to the lights from `first_light` on. */
-inline float3 sample_direct_often(const Scene* scene, const Surface* s, const Bsdf* f, float3 wo,
-                                  uint first_light, const Sampler* sampler, bool weighted,
-                                  PathResult* result) {
-    float3 direct = (float3)(0.0f);
-    for (uint part = 0; part < WEDGE_LIGHT_RAYS; ++part) {
-        const Sampler own = part_of(sampler, WEDGE_LIGHT_RAYS, part);
-        const float2 u = draw_2d(&own, vertex_dimension(0, WEDGE_VERTEX_LIGHT));
-        const float which = scene->light_count > first_light + 1
-                                ? draw_2d(&own, vertex_dimension(0, WEDGE_VERTEX_CHOICE)).x
-                                : 0.0f;
-        direct += sample_direct(scene, s, f, wo, first_light, which, u, weighted, result);
-    }
-    return direct * WEDGE_LIGHT_RAY_SHARE;
-}
-#endif
 
 /* What becomes of light that reaches the first hit along the scattered ray. */
 typedef struct {
@@ -249,14 +211,15 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             const Sampler* light_sampler = WEDGE_LIGHT_SAMPLER;
 #if WEDGE_LIGHT_RAYS > 1
             direct += sample_direct_often(scene, &s, &f, wo, first_light, light_sampler, goes_on,
-                                          &result);
+                                          &result.rays);
 #else
             const float2 u = draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
             const float which =
                 light_sampler == sampler
                     ? choice.x
                     : draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
-            direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on, &result);
+            direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on,
+                                    &result.rays);
 #endif
         }
         if (depth == 0)
