@@ -206,56 +206,6 @@ TEST_CASE("light_of_the_background_is_filtered_without_bias") {
     CHECK(rmse(frame.image, truth) < 0.6 * rmse(plain, truth));
 }
 
-TEST_CASE("black_parts_of_a_surface_do_not_darken_the_rest") {
-    // Stripes, black and grey, narrower than pixels, under a white sky. Paths end where they meet
-    // black, which says nothing about the light there.
-    std::vector<Mesh> meshes;
-    for (uint32_t i = 0; i < 200; ++i)
-        meshes.push_back(
-            make_quad({-2 + 0.02f * float(i), 0, -2}, {0, 0, 4}, {0.02f, 0, 0}, i % 2));
-    Scene scene = make_scene(meshes, {lambert(0), lambert(0.8f)});
-    scene.film = {16, 16};
-    scene.background = Vec3(1);
-    scene.camera = {
-        .position = {0, 50, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov_rad = 0.04f};
-    for (FilterMode mode : {FilterMode::guarded, FilterMode::plain}) {
-        RenderOptions options = filtered(1);
-        options.filter = mode;
-        CHECK(channel_mean(render(scene, options).image, "G") ==
-              doctest::Approx(0.4).epsilon(0.01));
-    }
-}
-
-TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
-    // Stripes, dark and bright, narrower than pixels. The sun stands at 45 degrees, and slats that
-    // the camera does not see hide it from the dark ones.
-    constexpr float width = 0.02f, height = 4;
-    std::vector<Mesh> meshes;
-    for (int i = -100; i < 100; ++i) {
-        const float x = width * float(i);
-        meshes.push_back(make_quad({x, 0, -2}, {0, 0, 4}, {width, 0, 0}, i & 1));
-        if (i & 1)
-            meshes.push_back(make_quad({x + height, height, -2}, {0, 0, 4}, {width, 0, 0}, 0));
-    }
-    Scene scene = make_scene(meshes, {lambert(0.8f), lambert(0.1f)});
-    scene.film = {16, 16};
-    scene.camera = {
-        .position = {0, 50, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov_rad = 0.04f};
-    const float far = 1000, side = 0.1f, radiance = 1e8f;
-    scene.rect_lights = {{.center = {far, far, 0},
-                          .edge_u = {0, 0, side},
-                          .edge_v = {-side, side, 0},
-                          .radiance = Vec3(radiance)}};
-    const double area = double(side) * side * std::sqrt(2.0);
-    const double irradiance = radiance * area * std::sqrt(0.5) / (2.0 * far * far);
-    for (FilterMode mode : {FilterMode::guarded, FilterMode::plain}) {
-        RenderOptions options = filtered(4);
-        options.filter = mode;
-        CHECK(channel_mean(render(scene, options).image, "G") ==
-              doctest::Approx(0.5 * 0.8 / double(kPi) * irradiance).epsilon(0.02));
-    }
-}
-
 TEST_CASE("ambient_occlusion_beside_a_wall_is_that_of_the_form_factor") {
     // A wall of height h hides (1 - d / sqrt(d^2 + h^2)) / 2 of the hemisphere at distance d, if it
     // is long.
