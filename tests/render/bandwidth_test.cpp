@@ -31,8 +31,8 @@ TEST_CASE("shadow_bandwidth_is_that_of_the_thesis") {
             const double n =
                 4 * std::pow(1 + mu * s_max / s_min, 2) *
                 std::pow(mu * 2 / s_min * std::sqrt(area_p / area_l) + alpha / (1 + s_min), 2);
-            CHECK(found[i].x == doctest::Approx(width).epsilon(1e-5));
-            CHECK(found[i].y == doctest::Approx(n).epsilon(1e-4));
+            CHECK(found[i].x == doctest::Approx(width).epsilon(1e-5).scale(1e-9));
+            CHECK(found[i].y == doctest::Approx(n).epsilon(1e-4).scale(1e-9));
         }
     }
 }
@@ -64,8 +64,8 @@ TEST_CASE("indirect_bandwidth_is_that_of_the_thesis") {
             const double omega_x = mu * std::min(band / z_min, alpha / d);
             const double n = share * std::pow(mu * band * d / z_min + alpha, 2) * band * band *
                              std::pow(1 + mu * z_max / z_min, 2);
-            CHECK(found[i].x == doctest::Approx(0.5 / omega_x).epsilon(1e-5));
-            CHECK(found[i].y == doctest::Approx(n).epsilon(1e-4));
+            CHECK(found[i].x == doctest::Approx(0.5 / omega_x).epsilon(1e-5).scale(1e-9));
+            CHECK(found[i].y == doctest::Approx(n).epsilon(1e-4).scale(1e-9));
         }
     }
 }
@@ -102,7 +102,7 @@ TEST_CASE("filter_weights_are_gaussians_of_the_distance_along_the_light") {
                               std::pow(places[i].z, 2) - off * off;
             const double sigma = std::min(places[0].w, places[i].w);
             const double truth = r2 < 9 * sigma * sigma ? std::exp(-r2 / (2 * sigma * sigma)) : 0;
-            CHECK(found[i] == doctest::Approx(truth).epsilon(1e-4));
+            CHECK(found[i] == doctest::Approx(truth).epsilon(1e-4).scale(1e-9));
         }
     }
 }

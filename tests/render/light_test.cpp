@@ -91,7 +91,9 @@ void check_rectangle(SamplingKernels& kernels, float sigma, float distance) {
                                                 (4 * h * h * area)
                                           : 1 / area;
         const double to_solid = see(light, from, ab.x, ab.x + h, ab.y, ab.y + h).area_to_solid;
-        REQUIRE(p.w == doctest::Approx(by_angle ? 1 / whole : pdf_area * to_solid).epsilon(2e-3));
+        REQUIRE(
+            p.w ==
+            doctest::Approx(by_angle ? 1 / whole : pdf_area * to_solid).epsilon(2e-3).scale(1e-9));
     }
     for (int j = 0; j < kSide; ++j)
         for (int i = 0; i < kSide; ++i) {

@@ -61,11 +61,15 @@ double plate_radiance(const Vec3& n) {
 void check_plate(const Scene& scene, const Vec3& normal) {
     const Image image = render(scene, quick(4, 0)).image;
     INFO(fmt::format("expected normal {} {} {}", normal.x, normal.y, normal.z));
-    CHECK(channel_mean(image, "N.X") == doctest::Approx(normal.x).epsilon(1e-4).scale(1));
-    CHECK(channel_mean(image, "N.Y") == doctest::Approx(normal.y).epsilon(1e-4).scale(1));
-    CHECK(channel_mean(image, "N.Z") == doctest::Approx(normal.z).epsilon(1e-4).scale(1));
+    CHECK(channel_mean(image, "N.X") ==
+          doctest::Approx(normal.x).epsilon(1e-4).scale(1e-9).scale(1));
+    CHECK(channel_mean(image, "N.Y") ==
+          doctest::Approx(normal.y).epsilon(1e-4).scale(1e-9).scale(1));
+    CHECK(channel_mean(image, "N.Z") ==
+          doctest::Approx(normal.z).epsilon(1e-4).scale(1e-9).scale(1));
     // The light is far, but not at infinity.
-    CHECK(channel_mean(image, "G") == doctest::Approx(plate_radiance(normal)).epsilon(2e-3));
+    CHECK(channel_mean(image, "G") ==
+          doctest::Approx(plate_radiance(normal)).epsilon(2e-3).scale(1e-9));
 }
 
 }  // namespace
@@ -140,7 +144,7 @@ TEST_CASE("a_mapped_normal_that_faces_away_from_the_viewer_is_not_used") {
     CHECK(channel_mean(image, "N.Y") == doctest::Approx(1));
     scene.camera.position = {5, 0.5f, 0};
     CHECK(channel_mean(render(scene, quick(4, 0)).image, "N.Y") ==
-          doctest::Approx(std::cos(1.2)).epsilon(1e-4));
+          doctest::Approx(std::cos(1.2)).epsilon(1e-4).scale(1e-9));
 }
 
 TEST_CASE("seen_from_behind_a_normal_map_is_the_other_side_of_the_same_relief") {
@@ -148,8 +152,8 @@ TEST_CASE("seen_from_behind_a_normal_map_is_the_other_side_of_the_same_relief") 
     Scene scene = make_plate(&map, nullptr);
     scene.camera.position = {0, -5, 0};
     const Image image = render(scene, quick(4, 0)).image;
-    CHECK(channel_mean(image, "N.X") == doctest::Approx(-0.6).epsilon(1e-4));
-    CHECK(channel_mean(image, "N.Y") == doctest::Approx(-0.8).epsilon(1e-4));
+    CHECK(channel_mean(image, "N.X") == doctest::Approx(-0.6).epsilon(1e-4).scale(1e-9));
+    CHECK(channel_mean(image, "N.Y") == doctest::Approx(-0.8).epsilon(1e-4).scale(1e-9));
 }
 
 TEST_CASE("normal_maps_make_no_energy") {

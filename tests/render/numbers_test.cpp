@@ -63,13 +63,13 @@ TEST_CASE("square_lights_from_a_millionth_to_a_million_give_their_irradiance") {
         const double expected = square_irradiance(side, 1);
         const auto radiance = float(1 / expected);
         CHECK(irradiance(under_square(float(side), 1, radiance), 256) ==
-              doctest::Approx(double(radiance) * expected).epsilon(0.01));
+              doctest::Approx(double(radiance) * expected).epsilon(0.01).scale(1e-9));
     }
     // The same at other scales: a light of 1e-6 m seen from 1e-5 m, one of 1e6 m from 1e5 m.
     CHECK(irradiance(under_square(1e-6f, 1e-5f, 1), 256, 1e-5f) ==
-          doctest::Approx(square_irradiance(0.1, 1)).epsilon(0.01));
+          doctest::Approx(square_irradiance(0.1, 1)).epsilon(0.01).scale(1e-9));
     CHECK(irradiance(under_square(1e6f, 1e5f, 1), 256, 1e5f) ==
-          doctest::Approx(square_irradiance(10, 1)).epsilon(0.01));
+          doctest::Approx(square_irradiance(10, 1)).epsilon(0.01).scale(1e-9));
 }
 
 TEST_CASE("planes_from_a_millionth_to_a_million_do_not_shade_themselves") {
@@ -91,7 +91,7 @@ TEST_CASE("planes_from_a_millionth_to_a_million_do_not_shade_themselves") {
             const Frame frame = render(scene, quick(16, 1));
             check_all_finite(frame);
             CHECK(channel_mean(frame.image, "A") == 1);
-            CHECK(channel_mean(frame.image, "G") == doctest::Approx(1).epsilon(1e-3));
+            CHECK(channel_mean(frame.image, "G") == doctest::Approx(1).epsilon(1e-3).scale(1e-9));
         }
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("gaussian_lights_become_point_lights_as_sigma_vanishes") {
         scene.rect_lights[0].profile = LightProfile::gaussian;
         scene.rect_lights[0].sigma = float(sigma);
         // Radiance integrates to 1 over the light, straight above at distance 1.
-        CHECK(irradiance(scene, 64) == doctest::Approx(1).epsilon(2e-3));
+        CHECK(irradiance(scene, 64) == doctest::Approx(1).epsilon(2e-3).scale(1e-9));
     }
 }
 
@@ -125,8 +125,8 @@ TEST_CASE("fields_of_view_from_a_thousandth_to_179_degrees_look_where_they_shoul
         CHECK(channel_mean(frame.image, "A") == 1);
         const double x = frame.image.at(2, 1, frame.image.channel("P.X"));
         const double y = frame.image.at(1, 0, frame.image.channel("P.Y"));
-        CHECK(x == doctest::Approx(half * 2 / 3).epsilon(0.05));
-        CHECK(y == doctest::Approx(half * 2 / 3).epsilon(0.05));
+        CHECK(x == doctest::Approx(half * 2 / 3).epsilon(0.05).scale(1e-9));
+        CHECK(y == doctest::Approx(half * 2 / 3).epsilon(0.05).scale(1e-9));
     }
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("lobes_of_any_exponent_reflect_at_most_what_they_receive") {
             const MeanAndError g = mean_and_error(channel_values(frame.image, "G"));
             CHECK(g.mean <= 1 + 4 * g.standard_error + 1e-4);
             // Nearly a mirror, seen from nearly above: nothing goes below the horizon.
-            if (exponent >= 1e3f) CHECK(g.mean == doctest::Approx(1).epsilon(0.01));
+            if (exponent >= 1e3f) CHECK(g.mean == doctest::Approx(1).epsilon(0.01).scale(1e-9));
         }
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("albedos_of_0_and_1_are_exact") {
     for (double g : channel_values(render(scene, quick(8, 4)).image, "G")) CHECK(g == 0);
     scene.materials[0].diffuse = Vec3(1);
     for (double g : channel_values(render(scene, quick(8, 4)).image, "G"))
-        CHECK(g == doctest::Approx(1).epsilon(1e-4));
+        CHECK(g == doctest::Approx(1).epsilon(1e-4).scale(1e-9));
 }
 
 TEST_CASE("reflectance_textures_beyond_1_or_below_0_are_cut") {
@@ -195,7 +195,7 @@ TEST_CASE("reflectance_textures_beyond_1_or_below_0_are_cut") {
         scene.materials[0].diffuse_texture = 0;
         const double expected = value > 0 ? 1 : 0;
         CHECK(channel_mean(render(scene, quick(8, 2)).image, "G") ==
-              doctest::Approx(expected).epsilon(1e-4));
+              doctest::Approx(expected).epsilon(1e-4).scale(1e-9));
     }
 }
 
