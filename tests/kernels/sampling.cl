@@ -20,8 +20,8 @@ __kernel void draw_parts(int kind, uint seed, int sequences, uint strata, uint p
     const uint id = get_global_id(0);
     if (id >= count) return;
     const Sampler s = make_sampler(kind, seed, sequences, strata, pixel, id / parts);
-    const Sampler p = part_of(&s, parts, id % parts);
-    out[id] = draw_2d(&p, dimension);
+    const SampleParts p = sample_parts(&s, parts, dimension);
+    out[id] = draw_part(&p, id % parts);
 }
 
 /* parameters: diffuse (grey), specular (grey), exponent, model; normal is +z. */
@@ -115,12 +115,12 @@ __kernel void eval_filter_weights(__global const float4* positions, __global con
     out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, along.xyz).s5);
 }
 
-/* in: turn; cosine; y, x. out: sine and cosine; arc_cosine4; arc_of */
+/* in: turn; cosine; y, x. out: sine and cosine; arc_cosine4; arc_of4 */
 __kernel void eval_angles(__global const float4* in, uint count, __global float4* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     const float4 v = in[id];
-    out[id] = (float4)(sine_cosine(v.x), arc_cosine4(v.y).x, arc_of(v.z, v.w));
+    out[id] = (float4)(sine_cosine(v.x), arc_cosine4(v.y).x, arc_of4(v.z, v.w).x);
 }
 
 __kernel void eval_inverse_erf(__global const float4* in, uint count, __global float2* out) {
