@@ -147,24 +147,37 @@ inline void add_step(const Neighbours* n, const Places8* p, int i, int j,
     }
 }
 
+/* True if a row of the neighbourhood, `at` in its middle, found anything on such surfaces. Three times
+   eight pixels are all of it. */
+inline bool is_any_found(const Neighbours* n, int surface, int signal, ulong at) {
+    const float8 left = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at - NEIGHBOURHOOD_PX);
+    const float8 right = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at + NEIGHBOURHOOD_PX);
+    const float8 middle = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at);
+    return lane_bits8((left >= 0.0f) | (middle >= 0.0f) | (right >= 0.0f));
+}
+
+inline void add_row(const Neighbours* n, const Places8* p, int signal, int other, ulong row,
+                    FoundSums* sums) {
+    for (int i = -NEIGHBOURHOOD_PX; i <= NEIGHBOURHOOD_PX; ++i) {
+        const ulong at = row + (ulong)(long)i;
+        const float8 least = load_found(n, other, signal, WEDGE_FOUND_LEAST, at);
+        const int8 is_known = is_on_row(&n->planes, &n->group, i) & (least >= 0.0f);
+        if (!lane_bits8(is_known)) continue;
+        const Places8 q = load_places8(&n->planes, n->places, other, at);
+        const int8 is_same = is_known & (q.size > 0.0f) & is_same_surface8(p, &q);
+        add_found(sums, least, load_found(n, other, signal, WEDGE_FOUND_MOST, at), is_same);
+    }
+}
+
 /* Of a light, over the whole neighbourhood. Most of it mostly found nothing. */
 inline void add_neighbourhood(const Neighbours* n, const Places8* p, int signal, FoundSums* sums) {
-    const Planes* planes = &n->planes;
     const int above = min(n->group.y, NEIGHBOURHOOD_PX);
-    const int below = min(planes->height - 1 - n->group.y, NEIGHBOURHOOD_PX);
-    for (int j = -above; j <= below; ++j)
-        for (int i = -NEIGHBOURHOOD_PX; i <= NEIGHBOURHOOD_PX; ++i) {
-            const ulong at = n->group.at + (ulong)((long)j * planes->pitch + i);
-            const int8 on_film = is_on_row(planes, &n->group, i);
-            for (int other = 0; other < WEDGE_SURFACES; ++other) {
-                const float8 least = load_found(n, other, signal, WEDGE_FOUND_LEAST, at);
-                const int8 is_known = on_film & (least >= 0.0f);
-                if (!lane_bits8(is_known)) continue;
-                const Places8 q = load_places8(planes, n->places, other, at);
-                const int8 is_same = is_known & (q.size > 0.0f) & is_same_surface8(p, &q);
-                add_found(sums, least, load_found(n, other, signal, WEDGE_FOUND_MOST, at), is_same);
-            }
-        }
+    const int below = min(n->planes.height - 1 - n->group.y, NEIGHBOURHOOD_PX);
+    for (int j = -above; j <= below; ++j) {
+        const ulong row = n->group.at + (ulong)((long)j * n->planes.pitch);
+        for (int other = 0; other < WEDGE_SURFACES; ++other)
+            if (is_any_found(n, other, signal, row)) add_row(n, p, signal, other, row, sums);
+    }
 }
 
 /* Lights keep what the pixel itself found. */
@@ -197,6 +210,7 @@ inline int8 ends_here(const Neighbours* n, const Places8* p) {
         int8 goes_on = 0;
         for (int other = 0; other < WEDGE_SURFACES; ++other) {
             const Places8 q = load_places8(&n->planes, n->places, other, at);
+            if (!lane_bits8(q.size > 0.0f)) break;
             goes_on |= (q.size > 0.0f) & is_same_surface8(p, &q);
         }
         ends |= is_on_row(&n->planes, &n->group, i) & ~goes_on;
