@@ -83,11 +83,13 @@ uint64_t mean_planes(uint64_t lights, uint64_t signals) {
     return WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signals - lights);
 }
 
-/// Of a pixel, for what was found, then for means of signals, then for the errors of filters.
+/// Of a pixel, for what was found, then for means of signals, then for the errors of filters, then
+/// for what was made of it.
 uint64_t shared_planes(uint64_t lights, uint64_t signals, uint64_t parts) {
     return std::max({WEDGE_SURFACES * signals * WEDGE_FOUND_PLANES,
                      WEDGE_SURFACES * mean_planes(lights, signals),
-                     parts * sizeof(shared::ScaleErrors) / sizeof(float)});
+                     parts * sizeof(shared::ScaleErrors) / sizeof(float),
+                     sizeof(shared::GuardedPixel) / sizeof(float)});
 }
 
 template <typename T>
@@ -149,7 +151,6 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
         {"light before and after filters",
          pixels * (sizeof(shared::SampledLight) +
                    uint64_t(plan_parts(plan)) * WEDGE_SCALES * sizeof(shared::HalfLight))},
-        {"guarded light", pixels * sizeof(shared::GuardedPixel)},
     };
 }
 
@@ -202,7 +203,6 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     allocate_planes();
     light_ =
         device_.allocate(WEDGE_SCALES * part_count() * sizeof(shared::HalfLight), "filtered light");
-    guarded_ = device_.allocate(pixels * sizeof(shared::GuardedPixel), "guarded light");
 }
 
 void SignalFilter::allocate_planes() {
@@ -222,9 +222,11 @@ void SignalFilter::allocate_planes() {
     ends_ = planes(1, "edges of surfaces");
     sigmas_ = zeros(entries, "filter widths");
     // Memory costs time when it is touched first, and each of these is needed when the one before
-    // is not any more.
+    // is not any more. Widths are measured before what was made of pixels is there, or make it
+    // worthless.
     const uint64_t count = shared_planes(lights_, signals_, parts_);
-    found_ = means_ = errors_ = planes(count, "slopes and depths, means of signals, errors");
+    found_ = means_ = errors_ = guarded_ =
+        planes(count, "slopes and depths, means of signals, errors, guarded light");
     near_by_ = filtered_ = smoothed_ = planes(count, "the same of pixels near by");
 }
 
