@@ -97,8 +97,8 @@ typedef struct {
 } Contrast;
 
 /* True if a pixel shows more than its first surface. */
-inline bool has_more_surfaces(__global const FilmPixel* own, __global const SurfaceSum* surfaces) {
-    return surfaces->position.w != own->normal.w;
+inline bool has_more_surfaces(__global const FilmPixel* own, __global const SurfaceSum* first) {
+    return first->position.w != own->normal.w;
 }
 
 /* `is_edge`: the pixel shows more than a surface, or its surface ends beside it. */
@@ -118,10 +118,19 @@ inline float contrast_across(__global const FilmPixel* film, bool is_edge, int x
     return is_edge ? contrast : 0.0f;
 }
 
-inline float contrast_inside(__global const FilmPixel* own, __global const SurfaceSum* surfaces) {
+/* What is kept of surfaces, by entries. */
+typedef struct {
+    __global const SurfaceSum* sums;
+    __global const uint* more;
+} SurfaceSums;
+
+inline float contrast_inside(__global const FilmPixel* own, SurfaceSums surfaces, int pixels,
+                             int pixel) {
     float square = 0.0f; /* of the relative deviation, times samples */
     for (int k = 0; k < WEDGE_SURFACES; ++k) {
-        const SurfaceSum s = surfaces[k];
+        const int entry = surface_entry(surfaces.more, pixels, pixel, k);
+        if (entry < 0) break;
+        const SurfaceSum s = surfaces.sums[entry];
         const float n = s.position.w;
         if (!(n > 0.0f)) break;
         const float mean = luminance(s.diffuse.xyz + s.specular.xyz) / n;
@@ -133,14 +142,13 @@ inline float contrast_inside(__global const FilmPixel* own, __global const Surfa
     return 2.0f * light * sqrt(square / fmax(own->normal.w, 1.0f));
 }
 
-inline Contrast contrast_at(__global const FilmPixel* film, __global const SurfaceSum* surface_sums,
-                            bool ends_here, int x, int y, int width, int height) {
+inline Contrast contrast_at(__global const FilmPixel* film, SurfaceSums surfaces, bool ends_here,
+                            int x, int y, int width, int height) {
     const int pixel = y * width + x;
-    __global const SurfaceSum* surfaces = surface_sums + pixel * WEDGE_SURFACES;
+    const bool is_edge = ends_here || has_more_surfaces(film + pixel, surfaces.sums + pixel);
     Contrast c;
-    c.across = contrast_across(film, ends_here || has_more_surfaces(film + pixel, surfaces), x, y,
-                               width, height);
-    c.inside = contrast_inside(film + pixel, surfaces);
+    c.across = contrast_across(film, is_edge, x, y, width, height);
+    c.inside = contrast_inside(film + pixel, surfaces, width * height, pixel);
     return c;
 }
 
@@ -215,7 +223,7 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
 __kernel void filter_bandwidth(
     __constant FilterSettings* settings, __global const Light* restrict lights,
     __global const FilmPixel* restrict film, __global const SurfaceSum* restrict surface_sums,
-    __global const float* restrict places, __global const float* restrict near_by,
+    __global const uint* restrict more, __global const float* restrict places, __global const float* restrict near_by,
     __global const float* restrict ends, __global const float4* restrict reflected,
     __global float* restrict sigmas, __global SampleEnds* restrict sample_ends,
     __global const SampledLight* restrict unfiltered, int width, int height, float mean_brightness) {
@@ -229,9 +237,9 @@ __kernel void filter_bandwidth(
     const float bright = fmax(own * own + mean_brightness * mean_brightness, 1e-30f);
     float samples = 0.0f;
     for (int k = 0; k < WEDGE_SURFACES; ++k) {
-        const int id = pixel * WEDGE_SURFACES + k;
+        const int id = surface_entry(more, width * height, pixel, k);
         const float size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SIZE, at);
-        if (!(size > 0.0f)) break;
+        if (!(size > 0.0f && id >= 0)) break;
         const float slanted_size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SLANTED_SIZE, at);
         float most = 0.0f;
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
@@ -254,8 +262,8 @@ __kernel void filter_bandwidth(
     const float power = nearest_power_of_two(clamp(samples, probes, cap));
     const SampleEnds before = sample_ends[pixel];
     const uint end = max((uint)clamp(power, least, cap), before.paths_before);
-    const Contrast contrast =
-        contrast_at(film, surface_sums, ends[at] > 0.0f, x, y, width, height);
+    const SurfaceSums surfaces = {surface_sums, more};
+    const Contrast contrast = contrast_at(film, surfaces, ends[at] > 0.0f, x, y, width, height);
     const uint rays = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness);
     sample_ends[pixel].paths = end;
     sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
@@ -270,6 +278,7 @@ __kernel void filter_bandwidth(
 
 __kernel void filter_edge_noise(__global const FilmPixel* restrict film,
                                 __global const SurfaceSum* restrict surface_sums,
+                                __global const uint* restrict more,
                                 __global const float* restrict ends,
                                 __global GuardedPixel* restrict guarded, int width, int height) {
     const int pixel = (int)get_global_id(0);
@@ -277,7 +286,8 @@ __kernel void filter_edge_noise(__global const FilmPixel* restrict film,
     const Planes planes = make_planes(width, height);
     const int x = pixel % width, y = pixel / width;
     const bool ends_here = ends[pixel_at(&planes, x, y)] > 0.0f;
-    const Contrast c = contrast_at(film, surface_sums, ends_here, x, y, width, height);
+    const SurfaceSums surfaces = {surface_sums, more};
+    const Contrast c = contrast_at(film, surfaces, ends_here, x, y, width, height);
     const float n = fmax(film[pixel].normal.w, 1.0f);
     const float square = fmax(c.across * c.across / WEDGE_SQUARES_ACROSS, c.inside * c.inside);
     guarded[pixel].error.w = WEDGE_EDGE_NOISE * square / (n * sqrt(n));

@@ -23,13 +23,16 @@ inline void set_place(const Planes* planes, __global float* places, int surface,
 __kernel void filter_surfaces(__global const FrameParams* restrict params,
                               __constant FilterSettings* settings,
                               __global const SurfaceSum* restrict sums,
-                              __global float* restrict places, int width, int height) {
+                              __global const uint* restrict more, __global float* restrict places,
+                              int width, int height) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
     const ulong at = pixel_at(&planes, pixel % width, pixel / width);
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
-        __global const SurfaceSum* sum = sums + pixel * WEDGE_SURFACES + surface;
+        const int entry = surface_entry(more, width * height, pixel, surface);
+        if (entry < 0) break;
+        __global const SurfaceSum* sum = sums + entry;
         if (!(sum->position.w > 0.0f)) break;
         const float3 p = sum->position.xyz / sum->position.w;
         const float3 to_eye = params->camera.position.xyz - p;
@@ -75,15 +78,21 @@ inline float3 find(const DistanceRange d, float4 first, float4 second, int signa
     return found;
 }
 __kernel void filter_distances(__global const DistanceRange* restrict distances,
-                               __global const float4* restrict sums, __global float* restrict found,
+                               __global const float4* restrict sums,
+                               __global const uint* restrict more, __global float* restrict found,
                                int width, int height) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
     const ulong at = pixel_at(&planes, pixel % width, pixel / width);
     for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
-        const int id = pixel * WEDGE_SURFACES * WEDGE_SIGNALS + entry;
-        const float3 f = find(distances[id], sums[2 * id], sums[2 * id + 1], entry % WEDGE_SIGNALS);
+        const int signal = entry % WEDGE_SIGNALS;
+        const int surface = surface_entry(more, width * height, pixel, entry / WEDGE_SIGNALS);
+        float3 f = (float3)(-1.0f, 0.0f, -1.0f);
+        if (surface >= 0) {
+            const uint id = (uint)surface * WEDGE_SIGNALS + (uint)signal;
+            f = find(distances[id], sums[2u * id], sums[2u * id + 1u], signal);
+        }
         WEDGE_FOUND(&planes, found, entry, WEDGE_FOUND_LEAST, at) = f.x;
         WEDGE_FOUND(&planes, found, entry, WEDGE_FOUND_MOST, at) = f.y;
         WEDGE_FOUND(&planes, found, entry, WEDGE_FOUND_VARIANCE, at) = f.z;

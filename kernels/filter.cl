@@ -14,6 +14,12 @@ inline bool has_surface(const Planes* planes, __global const float* places, int 
     return places[(surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE) * planes->size + at] > 0.0f;
 }
 
+/* Of a group's pixels. */
+inline bool any_surface(const Planes* planes, __global const float* places, int surface, ulong at) {
+    const float8 size = load8(planes, places, surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, at);
+    return lane_bits8(size > 0.0f);
+}
+
 /* Planes of means (wedge/shared/filter.h). */
 #define WEDGE_SURFACE_PLANES \
     (WEDGE_LIGHT_PLANES * WEDGE_SHADOW_LIGHTS + WEDGE_HEMISPHERE_PLANES * (WEDGE_SIGNALS - WEDGE_SHADOW_LIGHTS))
@@ -33,28 +39,22 @@ inline void set_means(const Planes* planes, __global float* means, int surface, 
         means[(first_plane(surface, signal) + c) * planes->size + at] = list[c];
 }
 
-inline float8 get_means(const Planes* planes, __global const float* means, int surface, int signal, ulong at) {
-    float list[8] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    const int count = is_light(signal) ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES;
-    for (int c = 0; c < count; ++c)
-        list[c] = means[(first_plane(surface, signal) + c) * planes->size + at];
-    return vload8(0, list);
-}
-
 __kernel void filter_means(__global const SampledLight* restrict unfiltered,
                            __global const float* restrict places, __global const float4* restrict sums,
-                           __global float* restrict means, int width, int height) {
+                           __global const uint* restrict more, __global float* restrict means, int width,
+                           int height) {
     const int pixel = (int)get_global_id(0);
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
     const ulong at = pixel_at(&planes, pixel % width, pixel / width);
     const float first = unfiltered[pixel].direct[0].w, second = unfiltered[pixel].direct[1].w;
-    __global const float4* s = sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2;
     for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
         const int surface = entry / WEDGE_SIGNALS, signal = entry % WEDGE_SIGNALS;
-        if (!has_surface(&planes, places, surface, at)) break;
-        const float4 a = first > 0.0f ? s[2 * entry] / first : (float4)(0.0f);
-        const float4 b = second > 0.0f ? s[2 * entry + 1] / second : a;
+        const int id = surface_entry(more, width * height, pixel, surface);
+        if (id < 0 || !has_surface(&planes, places, surface, at)) break;
+        __global const float4* s = sums + 2u * ((uint)id * WEDGE_SIGNALS + (uint)signal);
+        const float4 a = first > 0.0f ? s[0] / first : (float4)(0.0f);
+        const float4 b = second > 0.0f ? s[1] / second : a;
         const float8 values = is_light(signal) ? (float8)(a.xy, b.xy, 0.0f, 0.0f, 0.0f, 0.0f) : (float8)(a, b);
         set_means(&planes, means, surface, signal, at, values);
     }
@@ -116,9 +116,48 @@ inline void add_means8(Means8* sums, float8 weights, int8 counts, const Filter* 
     sums->v7 = add_lanes(sums->v7, weights, counts, v + 7 * size);
 }
 
-/* Means over a line, by weight, of one signal of one surface of a group's pixels, plane by plane. */
-inline void filter_line(const Filter* filter, const Group* group, Line line, int surface, int signal,
-                        float filtered[WEDGE_HEMISPHERE_PLANES][WEDGE_LANES]) {
+inline Means8 load_means8(const Planes* planes, __global const float* array, int surface, int signal, ulong at) {
+    const int first = first_plane(surface, signal);
+    Means8 m;
+    m.v0 = load8(planes, array, first, at);
+    m.v1 = load8(planes, array, first + 1, at);
+    m.v2 = load8(planes, array, first + 2, at);
+    m.v3 = load8(planes, array, first + 3, at);
+    m.v4 = m.v5 = m.v6 = m.v7 = 0.0f;
+    if (is_light(signal)) return m;
+    m.v4 = load8(planes, array, first + 4, at);
+    m.v5 = load8(planes, array, first + 5, at);
+    m.v6 = load8(planes, array, first + 6, at);
+    m.v7 = load8(planes, array, first + 7, at);
+    return m;
+}
+
+inline void scale_means8(Means8* m, float8 share) {
+    m->v0 *= share;
+    m->v1 *= share;
+    m->v2 *= share;
+    m->v3 *= share;
+    m->v4 *= share;
+    m->v5 *= share;
+    m->v6 *= share;
+    m->v7 *= share;
+}
+
+inline void store_means8(Means8 m, const Planes* planes, __global float* array, int surface, int signal, ulong at) {
+    const int first = first_plane(surface, signal);
+    store8(m.v0, planes, array, first, at);
+    store8(m.v1, planes, array, first + 1, at);
+    store8(m.v2, planes, array, first + 2, at);
+    store8(m.v3, planes, array, first + 3, at);
+    if (is_light(signal)) return;
+    store8(m.v4, planes, array, first + 4, at);
+    store8(m.v5, planes, array, first + 5, at);
+    store8(m.v6, planes, array, first + 6, at);
+    store8(m.v7, planes, array, first + 7, at);
+}
+
+/* Means over a line, by weight, of one signal of one surface of a group's pixels. */
+inline Means8 filter_line(const Filter* filter, const Group* group, Line line, int surface, int signal) {
     const Planes* planes = &filter->planes;
     const Places8 p = load_places8(planes, filter->places, surface, group->at);
     const float8 sigma = filter_sigma8(filter, surface * WEDGE_SIGNALS + signal, group->at);
@@ -145,35 +184,69 @@ inline void filter_line(const Filter* filter, const Group* group, Line line, int
             weights += w;
         }
     }
-    const float8 share = 1.0f / weights;
-    vstore8(sums.v0 * share, 0, filtered[0]);
-    vstore8(sums.v1 * share, 0, filtered[1]);
-    vstore8(sums.v2 * share, 0, filtered[2]);
-    vstore8(sums.v3 * share, 0, filtered[3]);
-    vstore8(sums.v4 * share, 0, filtered[4]);
-    vstore8(sums.v5 * share, 0, filtered[5]);
-    vstore8(sums.v6 * share, 0, filtered[6]);
-    vstore8(sums.v7 * share, 0, filtered[7]);
+    scale_means8(&sums, 1.0f / weights);
+    return sums;
 }
 
-/* Adds what a surface makes of a signal's means to the pixel's parts. Where none of a half's samples met the surface,
-   the other half stands in. `samples`: of the whole pixel. */
-inline void add_light(HalfLight* light, __global const SurfaceSum* sum, __global const float4* reflected,
-                      int signal, float8 means, float samples) {
-    const float share = 1.0f / samples;
-    float4* halves = light[is_light(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT].halves;
-    if (is_light(signal)) {
-        const float2 seen0 = means.y > 0.0f ? means.s01 : means.s23;
-        const float2 seen1 = means.w > 0.0f ? means.s23 : means.s01;
-        const float3 whole = reflected[signal].xyz * share;
-        halves[0].xyz += whole * (seen0.y > 0.0f ? seen0.x / seen0.y : 0.0f);
-        halves[1].xyz += whole * (seen1.y > 0.0f ? seen1.x / seen1.y : 0.0f);
-    } else {
-        const float4 half0 = means.s3 > 0.0f ? means.lo : means.hi;
-        const float4 half1 = means.s7 > 0.0f ? means.hi : means.lo;
-        const float3 colour = share * (signal == WEDGE_SIGNAL_DIFFUSE ? sum->diffuse.xyz : sum->specular.xyz);
-        halves[0].xyz += colour * half0.xyz * (half0.w > 0.0f ? 1.0f / half0.w : 0.0f);
-        halves[1].xyz += colour * half1.xyz * (half1.w > 0.0f ? 1.0f / half1.w : 0.0f);
+/* What a group's colours are multiplied by to be light, rgb of the first half of samples, then of the second: */
+inline float8 over_or_none(float8 above, float8 below) {
+    return keep_lanes(above / below, below > 0.0f);
+}
+
+/* Where none of a half's samples met the surface, the other half stands in. */
+inline void shares_of_light(const Means8* m, float shares[6][WEDGE_LANES]) {
+    const int8 first = m->v1 > 0.0f, second = m->v3 > 0.0f;
+    const float8 half0 = over_or_none(first ? m->v0 : m->v2, first ? m->v1 : m->v3);
+    const float8 half1 = over_or_none(second ? m->v2 : m->v0, second ? m->v3 : m->v1);
+    for (int c = 0; c < 3; ++c) {
+        vstore8(half0, 0, shares[c]);
+        vstore8(half1, 0, shares[3 + c]);
+    }
+}
+
+inline void shares_of_hemisphere(const Means8* m, float shares[6][WEDGE_LANES]) {
+    const int8 first = m->v3 > 0.0f, second = m->v7 > 0.0f;
+    const float8 all0 = first ? m->v3 : m->v7, all1 = second ? m->v7 : m->v3;
+    vstore8(over_or_none(first ? m->v0 : m->v4, all0), 0, shares[0]);
+    vstore8(over_or_none(first ? m->v1 : m->v5, all0), 0, shares[1]);
+    vstore8(over_or_none(first ? m->v2 : m->v6, all0), 0, shares[2]);
+    vstore8(over_or_none(second ? m->v4 : m->v0, all1), 0, shares[3]);
+    vstore8(over_or_none(second ? m->v5 : m->v1, all1), 0, shares[4]);
+    vstore8(over_or_none(second ? m->v6 : m->v2, all1), 0, shares[5]);
+}
+
+/* Sums over the samples of pixels, by entries of surfaces where not by pixels. */
+typedef struct {
+    __global const FilmPixel* film;
+    __global const SurfaceSum* surfaces;
+    __global const uint* more;
+    __global const float4* reflected;
+} PixelSums;
+
+inline float3 colour_of(const PixelSums* sums, int entry, int signal) {
+    if (is_light(signal)) return sums->reflected[(uint)entry * WEDGE_SHADOW_LIGHTS + (uint)signal].xyz;
+    return signal == WEDGE_SIGNAL_DIFFUSE ? sums->surfaces[entry].diffuse.xyz : sums->surfaces[entry].specular.xyz;
+}
+
+/* Adds what a surface makes of its means to the parts of a group's pixels. */
+inline void add_light(const Planes* planes, __global const float* places, const Group* group, int surface,
+                      int signal, const Means8* means, const PixelSums* sums, HalfLight* light) {
+    float shares[6][WEDGE_LANES];
+    if (is_light(signal))
+        shares_of_light(means, shares);
+    else
+        shares_of_hemisphere(means, shares);
+    const int first = group->y * planes->width + group->x, lanes = min(WEDGE_LANES, planes->width - group->x);
+    for (int lane = 0; lane < lanes; ++lane) {
+        if (!has_surface(planes, places, surface, group->at + lane)) continue;
+        const int pixel = first + lane;
+        const int entry = surface_entry(sums->more, planes->width * planes->height, pixel, surface);
+        if (entry < 0) continue;
+        const float3 colour = colour_of(sums, entry, signal) / fmax(sums->film[pixel].normal.w, 1.0f);
+        float4* halves =
+            light[lane * WEDGE_PARTS + (is_light(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT)].halves;
+        halves[0].xyz += colour * (float3)(shares[0][lane], shares[1][lane], shares[2][lane]);
+        halves[1].xyz += colour * (float3)(shares[3][lane], shares[4][lane], shares[5][lane]);
     }
 }
 
@@ -194,35 +267,60 @@ inline void add_sampled_light(HalfLight* light, __global const float4* sums, __g
     light->halves[1].w += scale * half1.z / half1.w;
 }
 
+/* Of a group's pixels, to where scale `index` keeps them. */
+inline void store_light(const Planes* planes, const Group* group, const HalfLight* result,
+                        __global HalfLight* light, int index) {
+    const int pixels = planes->width * planes->height, first = group->y * planes->width + group->x;
+    __global HalfLight* to = light + (index * pixels + first) * WEDGE_PARTS;
+    const int count = min(WEDGE_LANES, planes->width - group->x) * WEDGE_PARTS;
+    for (int i = 0; i < count; ++i) to[i] = result[i];
+}
+
+/* HalfLight's w of a group's pixels; `signal_sums`: of signals, by halves. */
+inline void add_sampled(const Planes* planes, const Group* group, const PixelSums* sums,
+                        __global const float4* signal_sums, HalfLight* light) {
+    const int first = group->y * planes->width + group->x, lanes = min(WEDGE_LANES, planes->width - group->x);
+    for (int lane = 0; lane < lanes; ++lane) {
+        const int pixel = first + lane;
+        HalfLight* parts = light + lane * WEDGE_PARTS;
+        const float samples = fmax(sums->film[pixel].normal.w, 1.0f);
+        for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
+            const int id = surface_entry(sums->more, planes->width * planes->height, pixel, surface);
+            if (id < 0) break;
+            for (int signal = 0; signal < WEDGE_SHADOW_LIGHTS; ++signal)
+                add_sampled_light(parts + WEDGE_PART_DIRECT,
+                                  signal_sums + 2u * ((uint)id * WEDGE_SIGNALS + (uint)signal), sums->surfaces + id,
+                                  samples);
+        }
+        if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
+            for (int h = 0; h < 2; ++h) {
+                float4* half_light = parts[WEDGE_PART_INDIRECT].halves + h;
+                half_light->w = luminance(half_light->xyz);
+            }
+    }
+}
+
 __kernel void filter_none(__global const float* restrict places, __global const FilmPixel* restrict film,
-                          __global const SurfaceSum* restrict sums,
+                          __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
                           __global const float4* restrict reflected,
                           __global const float4* restrict signal_sums,
                           __global const float* restrict means, __global HalfLight* restrict light,
                           int width, int height) {
-    const int pixel = (int)get_global_id(0);
-    if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
-    const ulong at = pixel_at(&planes, pixel % width, pixel / width);
-    HalfLight result[WEDGE_PARTS];
-    for (int part = 0; part < WEDGE_PARTS; ++part) result[part] = no_light();
-    for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
-        const int surface = entry / WEDGE_SIGNALS, id = pixel * WEDGE_SURFACES + surface;
-        if (!has_surface(&planes, places, surface, at)) break;
-        const int signal = entry % WEDGE_SIGNALS;
-        const float samples = fmax(film[pixel].normal.w, 1.0f);
-        add_light(result, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal,
-                  get_means(&planes, means, surface, signal, at), samples);
-        if (is_light(signal))
-            add_sampled_light(result + WEDGE_PART_DIRECT, signal_sums + 2 * (id * WEDGE_SIGNALS + signal), sums + id,
-                              samples);
-    }
-    if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
-        for (int h = 0; h < 2; ++h) {
-            float4* half_light = result[WEDGE_PART_INDIRECT].halves + h;
-            half_light->w = luminance(half_light->xyz);
+    const Group group = group_in_rows(&planes, (int)get_global_id(0));
+    if (!is_on_film(&planes, &group)) return;
+    const PixelSums sums = {film, surface_sums, more, reflected};
+    HalfLight result[WEDGE_LANES * WEDGE_PARTS];
+    for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
+    for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
+        if (!any_surface(&planes, places, surface, group.at)) break;
+        for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
+            const Means8 own = load_means8(&planes, means, surface, signal, group.at);
+            add_light(&planes, places, &group, surface, signal, &own, &sums, result);
         }
-    for (int part = 0; part < WEDGE_PARTS; ++part) light[pixel * WEDGE_PARTS + part] = result[part];
+    }
+    add_sampled(&planes, &group, &sums, signal_sums, result);
+    store_light(&planes, &group, result, light, 0);
 }
 
 #define WEDGE_FILTER_PARAMS                                                                        \
@@ -237,57 +335,33 @@ __kernel void filter_x(WEDGE_FILTER_PARAMS, __global float* restrict filtered) {
     const Group group = group_in_rows(&filter.planes, (int)get_global_id(0));
     if (!is_on_film(&filter.planes, &group)) return;
     const Line line = {group.x + WEDGE_LANES - 1, width - 1 - group.x, 1, 1};
-    for (int entry = 0; entry < WEDGE_SURFACES * WEDGE_SIGNALS; ++entry) {
-        const int surface = entry / WEDGE_SIGNALS;
-        const float8 size = load8(&filter.planes, places,
-                                  surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, group.at);
-        if (!lane_bits8(size > 0.0f)) break;
-        const int signal = entry % WEDGE_SIGNALS;
-        float row[WEDGE_HEMISPHERE_PLANES][WEDGE_LANES];
-        filter_line(&filter, &group, line, surface, signal, row);
-        for (int c = 0; c < (is_light(signal) ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES); ++c)
-            store8(vload8(0, row[c]), &filter.planes, filtered, first_plane(surface, signal) + c, group.at);
-    }
-}
-
-/* Of all signals of one surface, to the group's pixels. */
-inline void filter_surface(const Filter* filter, const Group* group, Line line, int surface,
-                           __global const FilmPixel* film, __global const SurfaceSum* sums,
-                           __global const float4* reflected, HalfLight* light) {
-    const int first = group->y * filter->planes.width + group->x;
-    const int lanes = min(WEDGE_LANES, filter->planes.width - group->x);
-    for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
-        float column[WEDGE_HEMISPHERE_PLANES][WEDGE_LANES];
-        filter_line(filter, group, line, surface, signal, column);
-        for (int lane = 0; lane < lanes; ++lane) {
-            if (!has_surface(&filter->planes, filter->places, surface, group->at + lane)) continue;
-            const float8 means = (float8)(column[0][lane], column[1][lane], column[2][lane], column[3][lane],
-                                          column[4][lane], column[5][lane], column[6][lane], column[7][lane]);
-            const int pixel = first + lane, id = pixel * WEDGE_SURFACES + surface;
-            add_light(light + lane * WEDGE_PARTS, sums + id, reflected + id * WEDGE_SHADOW_LIGHTS, signal, means,
-                      fmax(film[pixel].normal.w, 1.0f));
+    for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
+        if (!any_surface(&filter.planes, places, surface, group.at)) break;
+        for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
+            const Means8 row = filter_line(&filter, &group, line, surface, signal);
+            store_means8(row, &filter.planes, filtered, surface, signal, group.at);
         }
     }
 }
 
 /* `signals`: what filter_x has made. `index`: place of `scale` in WEDGE_SCALE_WIDTHS. */
 __kernel void filter_y(WEDGE_FILTER_PARAMS, __global const FilmPixel* restrict film,
-                       __global const SurfaceSum* restrict sums,
+                       __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
                        __global const float4* restrict reflected,
                        __global HalfLight* restrict light, int index) {
     const Filter filter = WEDGE_FILTER_ARGS;
     const Group group = group_in_columns(&filter.planes, (int)get_global_id(0));
     if (!is_on_film(&filter.planes, &group)) return;
     const Line line = {group.y, height - 1 - group.y, 0, filter.planes.pitch};
+    const PixelSums sums = {film, surface_sums, more, reflected};
     HalfLight result[WEDGE_LANES * WEDGE_PARTS];
     for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
-        const float8 size = load8(&filter.planes, places,
-                                  surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, group.at);
-        if (!lane_bits8(size > 0.0f)) break;
-        filter_surface(&filter, &group, line, surface, film, sums, reflected, result);
+        if (!any_surface(&filter.planes, places, surface, group.at)) break;
+        for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
+            const Means8 column = filter_line(&filter, &group, line, surface, signal);
+            add_light(&filter.planes, places, &group, surface, signal, &column, &sums, result);
+        }
     }
-    __global HalfLight* first = light + (index * width * height + group.y * width + group.x) * WEDGE_PARTS;
-    const int count = min(WEDGE_LANES, width - group.x) * WEDGE_PARTS;
-    for (int i = 0; i < count; ++i) first[i] = result[i];
+    store_light(&filter.planes, &group, result, light, index);
 }

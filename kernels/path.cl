@@ -314,10 +314,13 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const SampleEnds ends = sample_ends[pixel];
     const uint end = min(first_sample + sample_count, max(ends.paths, ends.camera_rays));
     sample_count = end > first_sample ? end - first_sample : 0u;
-    PixelSignals signals = {all_surfaces + pixel * WEDGE_SURFACES,
-                            all_sums + pixel * WEDGE_SURFACES * WEDGE_SIGNALS * 2,
-                            all_distances + pixel * WEDGE_SURFACES * WEDGE_SIGNALS,
-                            all_reflected + pixel * WEDGE_SURFACES * WEDGE_SHADOW_LIGHTS,
+    PixelSignals signals = {all_surfaces,
+                            more_surfaces,
+                            params->crop_width * params->crop_height,
+                            (int)pixel,
+                            all_sums,
+                            all_distances,
+                            all_reflected,
                             all_unfiltered + pixel,
                             filter_settings->pixel_angle,
                             0,

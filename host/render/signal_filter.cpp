@@ -21,8 +21,8 @@ constexpr float kCameraRays = 80;  // of a pixel with an edge as high as the ima
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
-constexpr cl_uint kIndexArg = 12;       // of filter_y
-constexpr cl_uint kBrightnessArg = 13;  // of filter_bandwidth
+constexpr cl_uint kIndexArg = 13;       // of filter_y
+constexpr cl_uint kBrightnessArg = 14;  // of filter_bandwidth
 
 /// The longer paths are, the cheaper beside them (kernels/bandwidth.cl).
 int camera_rays_at_edges(int bounces) {
@@ -138,10 +138,11 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
     return {
         {"sample counts", pixels * (sizeof(shared::SampleEnds) + sizeof(cl_uint))},
         {"surfaces of pixels",
-         surfaces * (sizeof(shared::SurfaceSum) + WEDGE_PLACE_PLANES * sizeof(float))},
+         surfaces * (sizeof(shared::SurfaceSum) + WEDGE_PLACE_PLANES * sizeof(float)) +
+             pixels * sizeof(cl_uint)},
         {"signals, sampled", entries * 2 * sizeof(shared::float4)},
         {"distances", entries * sizeof(shared::DistanceRange)},
-        {"distances, then signals, then errors of filters",
+        {"distances, then signals, then errors of filters, then guarded light",
          2 * pixels *
              shared_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals),
                            uint64_t(plan_parts(plan))) *
@@ -171,8 +172,8 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
     device_.finish();
     stats.upload_s += watch.lap();
     compile(plan, kernel_dir, stats);
-    const cl::Buffer kept[] = {settings_,  surface_sums_, sums_,        distances_,
-                               reflected_, unfiltered_,   sample_ends_, pixel_list_};
+    const cl::Buffer kept[] = {settings_,   surface_sums_, sums_,        distances_, reflected_,
+                               unfiltered_, more_,         sample_ends_, pixel_list_};
     tracer.attach_signals(kept);
     stats.device_bytes = device.allocated_bytes();
 }
@@ -194,6 +195,7 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     const auto zeros = [&](uint64_t count, uint64_t item_bytes, const char* what) {
         return device_.allocate_zeros(count * item_bytes, what);
     };
+    more_ = zeros(pixels + 1, sizeof(cl_uint), "places of further surfaces");
     surface_sums_ = zeros(surfaces, sizeof(shared::SurfaceSum), "surfaces of pixels");
     sums_ = zeros(2 * entries, sizeof(shared::float4), "signals");
     distances_ = zeros(entries, sizeof(shared::DistanceRange), "distances");
@@ -261,21 +263,22 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
 void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     const auto width = cl_int(film_width), height = cl_int(film_height);
     const auto parts = cl_uint(film_width * film_height * parts_);
-    set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, places_, width, height);
-    set_kernel_args(distances_kernel_, distances_, sums_, found_, width, height);
+    set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, more_, places_, width,
+                    height);
+    set_kernel_args(distances_kernel_, distances_, sums_, more_, found_, width, height);
     set_kernel_args(neighbours_kernel_, places_, found_, near_by_, ends_, width, height);
     set_kernel_args(brightness_kernel_, film_, rows_, width, height);
-    set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, places_,
+    set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, more_, places_,
                     near_by_, ends_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height,
                     0.0f);
-    set_kernel_args(edge_noise_, film_, surface_sums_, ends_, guarded_, width, height);
-    set_kernel_args(means_kernel_, unfiltered_, places_, sums_, means_, width, height);
-    set_kernel_args(filter_none_, places_, film_, surface_sums_, reflected_, sums_, means_, light_,
-                    width, height);
+    set_kernel_args(edge_noise_, film_, surface_sums_, more_, ends_, guarded_, width, height);
+    set_kernel_args(means_kernel_, unfiltered_, places_, sums_, more_, means_, width, height);
+    set_kernel_args(filter_none_, places_, film_, surface_sums_, more_, reflected_, sums_, means_,
+                    light_, width, height);
     set_kernel_args(filter_x_, settings_, light_list_, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
     set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,
-                    1.0f, film_, surface_sums_, reflected_, light_, cl_int(0));
+                    1.0f, film_, surface_sums_, more_, reflected_, light_, cl_int(0));
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, parts);
     set_kernel_args(guard_smooth_, errors_, smoothed_, width, height);
     set_kernel_args(choose_, settings_, unfiltered_, light_, smoothed_, guarded_, width, height);
@@ -320,7 +323,7 @@ double SignalFilter::filter() {
     const uint64_t pixels = pixel_count(), groups = group_count();
     // Where the samples met the scene is better known now than after the probe.
     double seconds = run(std::array{Launch{surfaces_kernel_, pixels}, Launch{means_kernel_, pixels},
-                                    Launch{filter_none_, pixels}});
+                                    Launch{filter_none_, groups}});
     for (int scale = 1; scale < WEDGE_SCALES; ++scale) {
         filter_x_.setArg(kScaleArg, widths[scale]);
         filter_y_.setArg(kScaleArg, widths[scale]);
@@ -361,14 +364,13 @@ SignalLayers SignalFilter::read_signal(uint32_t signal) {
     };
     const auto sigmas = planes(sigmas_, signal + 1);
     const auto places = planes(places_, WEDGE_PLACE_PLANES);
-    const auto distances =
-        read<shared::DistanceRange>(device_, distances_, pixels * WEDGE_SURFACES * signals_);
+    const auto distances = read<shared::DistanceRange>(device_, distances_, pixels * signals_);
     SignalLayers layers;
     for (std::vector<float>* layer : {&layers.width_px, &layers.nearest, &layers.farthest})
         layer->assign(pixels, 0.0f);
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::size_t at = WEDGE_PLANE_MARGIN + i / width_ * pitch + i % width_;
-        const std::size_t entry = i * WEDGE_SURFACES * signals_ + signal;
+        const std::size_t entry = i * signals_ + signal;
         const float size = places[WEDGE_PLACE_SLANTED_SIZE * plane_size() + at];
         if (size > 0) layers.width_px[i] = sigmas[signal * plane_size() + at] / size;
         if (distances[entry].farthest > 0) {

@@ -94,7 +94,7 @@ class SignalFilter {
     device::Device& device_;
     uint32_t width_, height_, lights_, signals_, parts_;
     cl::Buffer light_list_, params_, film_;
-    cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, sums_, distances_,
+    cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, more_, sums_, distances_,
         reflected_, unfiltered_;
     cl::Buffer places_, found_, near_by_, ends_, sigmas_, means_, filtered_;  // in planes
     cl::Buffer light_, errors_, smoothed_, guarded_;

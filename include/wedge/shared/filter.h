@@ -7,8 +7,8 @@
    what the lobe reflects of the hemisphere. Samples are summed in two halves, whose difference
    tells the error.
 
-   Arrays: surfaces at pixel * WEDGE_SURFACES + surface; signals at that * signals + signal; sums of
-   signals at that * 2 + half. */
+   Arrays: a surface's entry is that of surface_entry in kernels/lib/surfaces.clh; signals are at
+   that * signals + signal, sums of signals at that * 2 + half. */
 #ifndef WEDGE_SHARED_FILTER_H
 #define WEDGE_SHARED_FILTER_H
 
@@ -19,6 +19,10 @@ WEDGE_SHARED_BEGIN
 /* Most lights whose shadows are filtered; the others are left to Monte Carlo. */
 #define WEDGE_MAX_SHADOW_LIGHTS 4
 #define WEDGE_SURFACES 3
+
+/* Most pixels show one surface. The others' entries come after those of all first surfaces, so that
+   memory for surfaces that nobody sees is never touched. */
+#define WEDGE_MORE_SURFACES (WEDGE_SURFACES - 1)
 
 /* Samples, the first of a pixel, whose shadow rays look for the nearest occluder. */
 #define WEDGE_LIGHT_PROBES 8
