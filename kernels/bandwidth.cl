@@ -24,7 +24,7 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
     const float sigma = light_sigma(light);
     const float k = light->edge_u.w > 0.0f ? settings->k_gaussian : settings->k_uniform;
     const float width =
-        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing, settings->alpha_direct, k);
+        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing_direct, settings->alpha_direct, k);
     if (!(slopes.x > 0.0f)) /* an occluder that touches */
         return (float2)(width, (float)settings->max_samples);
     return (float2)(width, shadow_sample_count(slopes.x, slopes.y, sigma, pixel, settings->mu,
@@ -39,7 +39,7 @@ inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float2 f
     const float far_away = 1e6f * pixel;
     const float z_min = fmax(found.x > 0.0f ? 1.0f / found.x : far_away, band * pixel / alpha);
     const float z_max = fmax(found.y, z_min);
-    return (float2)(indirect_filter_sigma(z_min, band, pixel, settings->narrowing, alpha),
+    return (float2)(indirect_filter_sigma(z_min, band, pixel, settings->narrowing_indirect, alpha),
                     indirect_sample_count(z_min, z_max, band, share, pixel, mu, alpha));
 }
 

@@ -215,11 +215,17 @@ inline Chosen choose(float doubt, ScaleErrors estimates, __global const HalfLigh
     return c;
 }
 
+/* Of a part. */
+inline float doubt_of(__constant FilterSettings* settings, int part) {
+    return WEDGE_SHADOW_LIGHTS > 0 && part == WEDGE_PART_DIRECT ? settings->doubt_direct
+                                                                : settings->doubt_indirect;
+}
+
 /* `choose`, or the filter everywhere or nowhere. */
-inline Chosen choose_by_mode(__constant FilterSettings* settings, ScaleErrors estimates,
+inline Chosen choose_by_mode(__constant FilterSettings* settings, int part, ScaleErrors estimates,
                              __global const HalfLight* light, uint stride, float4 unfiltered) {
     if (settings->mode == WEDGE_FILTER_MODE_GUARDED)
-        return choose(settings->doubt, estimates, light, stride, unfiltered);
+        return choose(doubt_of(settings, part), estimates, light, stride, unfiltered);
     const bool everywhere = settings->mode == WEDGE_FILTER_MODE_PLAIN;
     const float4 filtered = mean_of_halves(light + (WEDGE_SCALES - 1) * stride);
     const Chosen c = {
@@ -244,7 +250,7 @@ inline Chosen choose_part(const Guard* guard, int x, int y, int part) {
     __global const SampledLight* u = guard->unfiltered + y * guard->width + x;
     __global const float4* sums = sampled(u, (uint)part);
     const float4 mean = (sums[0] + sums[1]) / sample_count(u);
-    return choose_by_mode(guard->settings, estimates, guard->light + id,
+    return choose_by_mode(guard->settings, part, estimates, guard->light + id,
                           (uint)(stride * guard->height), mean);
 }
 

@@ -62,7 +62,7 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light,
     const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
     shared::FilterSettings settings{};
     settings.mode = mode;
-    settings.doubt = 1;
+    settings.doubt_direct = settings.doubt_indirect = 1;
     const auto upload = [&](const auto& items, const char* what) {
         return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), what,
                                    CL_MEM_READ_WRITE);

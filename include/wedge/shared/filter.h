@@ -130,8 +130,9 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 48);
 
 /* Settings of the method; the defaults are in host/render/signal_filter.cpp. */
 typedef struct FilterSettings {
-    float mu;           /* bandwidth scale: larger is more samples */
-    float narrowing;    /* widths of filters are what the theory asks for over this */
+    float mu; /* bandwidth scale: larger is more samples */
+    /* Widths of filters are what theory asks for over these. */
+    float narrowing_direct, narrowing_indirect;
     float alpha_direct; /* band limit of geometry as a share of the pixel's */
     float alpha_indirect;
     float k_gaussian,
@@ -142,9 +143,10 @@ typedef struct FilterSettings {
     int camera_rays_at_edges; /* whose contrast is the mean brightness; mu = 1 */
     int least_samples;        /* that every pixel gets, whatever its frequencies */
     int mode;                 /* WEDGE_FILTER_MODE_* */
-    float doubt; /* standard errors that are taken off the square of a drift between filters */
+    /* Standard errors that are taken off the square of a drift between filters. */
+    float doubt_direct, doubt_indirect;
 } FilterSettings;
-WEDGE_ASSERT_SIZE(FilterSettings, 56);
+WEDGE_ASSERT_SIZE(FilterSettings, 64);
 
 /* What is done with what was sampled: guarded filters, filters everywhere, none. */
 #define WEDGE_FILTER_MODE_GUARDED 0
