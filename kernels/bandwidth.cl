@@ -24,7 +24,8 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
     const float sigma = light_sigma(light);
     const float k = light->edge_u.w > 0.0f ? settings->k_gaussian : settings->k_uniform;
     const float width =
-        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing_direct, settings->alpha_direct, k);
+        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing_direct,
+                            settings->alpha_direct, k);
     if (!(slopes.x > 0.0f)) /* an occluder that touches */
         return (float2)(width, (float)settings->max_samples);
     return (float2)(width, shadow_sample_count(slopes.x, slopes.y, sigma, pixel, settings->mu,
@@ -223,7 +224,8 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
 __kernel void filter_bandwidth(
     __constant FilterSettings* settings, __global const Light* restrict lights,
     __global const FilmPixel* restrict film, __global const SurfaceSum* restrict surface_sums,
-    __global const uint* restrict more, __global const float* restrict places, __global const float* restrict near_by,
+    __global const uint* restrict more, __global const float* restrict places,
+    __global const float* restrict near_by,
     __global const float* restrict ends, __global const float4* restrict reflected,
     __global float* restrict sigmas, __global SampleEnds* restrict sample_ends,
     __global const SampledLight* restrict unfiltered, int width, int height, float mean_brightness) {

@@ -7,6 +7,7 @@
    Arrays: include/wedge/shared/filter.h; places, sigmas and means in planes. Filters work on eight pixels side by side
    (lib/planes.clh). */
 #include "lib/filter_weight.clh"
+#include "lib/means.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
@@ -18,25 +19,6 @@ inline bool has_surface(const Planes* planes, __global const float* places, int 
 inline bool any_surface(const Planes* planes, __global const float* places, int surface, ulong at) {
     const float8 size = load8(planes, places, surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, at);
     return lane_bits8(size > 0.0f);
-}
-
-/* Planes of means (wedge/shared/filter.h). */
-#define WEDGE_SURFACE_PLANES \
-    (WEDGE_LIGHT_PLANES * WEDGE_SHADOW_LIGHTS + WEDGE_HEMISPHERE_PLANES * (WEDGE_SIGNALS - WEDGE_SHADOW_LIGHTS))
-
-inline bool is_light(int signal) { return signal < WEDGE_SHADOW_LIGHTS; }
-
-inline int first_plane(int surface, int signal) {
-    const int lights = min(signal, WEDGE_SHADOW_LIGHTS);
-    return surface * WEDGE_SURFACE_PLANES + WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signal - lights);
-}
-
-inline void set_means(const Planes* planes, __global float* means, int surface, int signal, ulong at, float8 values) {
-    float list[8];
-    vstore8(values, 0, list);
-    const int count = is_light(signal) ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES;
-    for (int c = 0; c < count; ++c)
-        means[(first_plane(surface, signal) + c) * planes->size + at] = list[c];
 }
 
 __kernel void filter_means(__global const SampledLight* restrict unfiltered,
@@ -91,11 +73,6 @@ inline float8 filter_reach8(const Filter* filter, const Places8* p, float8 sigma
     return keep_lanes(lesser8(reach, (float8)((float)filter->settings->max_radius_px)), filters);
 }
 
-/* The means of a signal in eight pixels. Lights have the first WEDGE_LIGHT_PLANES only. */
-typedef struct {
-    float8 v0, v1, v2, v3, v4, v5, v6, v7;
-} Means8;
-
 inline float8 add_lanes(float8 sums, float8 weights, int8 counts, __global const float* values) {
     return select(sums, sums + weights * vload8(0, values), counts);
 }
@@ -114,46 +91,6 @@ inline void add_means8(Means8* sums, float8 weights, int8 counts, const Filter* 
     sums->v5 = add_lanes(sums->v5, weights, counts, v + 5 * size);
     sums->v6 = add_lanes(sums->v6, weights, counts, v + 6 * size);
     sums->v7 = add_lanes(sums->v7, weights, counts, v + 7 * size);
-}
-
-inline Means8 load_means8(const Planes* planes, __global const float* array, int surface, int signal, ulong at) {
-    const int first = first_plane(surface, signal);
-    Means8 m;
-    m.v0 = load8(planes, array, first, at);
-    m.v1 = load8(planes, array, first + 1, at);
-    m.v2 = load8(planes, array, first + 2, at);
-    m.v3 = load8(planes, array, first + 3, at);
-    m.v4 = m.v5 = m.v6 = m.v7 = 0.0f;
-    if (is_light(signal)) return m;
-    m.v4 = load8(planes, array, first + 4, at);
-    m.v5 = load8(planes, array, first + 5, at);
-    m.v6 = load8(planes, array, first + 6, at);
-    m.v7 = load8(planes, array, first + 7, at);
-    return m;
-}
-
-inline void scale_means8(Means8* m, float8 share) {
-    m->v0 *= share;
-    m->v1 *= share;
-    m->v2 *= share;
-    m->v3 *= share;
-    m->v4 *= share;
-    m->v5 *= share;
-    m->v6 *= share;
-    m->v7 *= share;
-}
-
-inline void store_means8(Means8 m, const Planes* planes, __global float* array, int surface, int signal, ulong at) {
-    const int first = first_plane(surface, signal);
-    store8(m.v0, planes, array, first, at);
-    store8(m.v1, planes, array, first + 1, at);
-    store8(m.v2, planes, array, first + 2, at);
-    store8(m.v3, planes, array, first + 3, at);
-    if (is_light(signal)) return;
-    store8(m.v4, planes, array, first + 4, at);
-    store8(m.v5, planes, array, first + 5, at);
-    store8(m.v6, planes, array, first + 6, at);
-    store8(m.v7, planes, array, first + 7, at);
 }
 
 /* Means over a line, by weight, of one signal of one surface of a group's pixels. */
@@ -188,12 +125,12 @@ inline Means8 filter_line(const Filter* filter, const Group* group, Line line, i
     return sums;
 }
 
-/* What a group's colours are multiplied by to be light, rgb of the first half of samples, then of the second: */
 inline float8 over_or_none(float8 above, float8 below) {
     return keep_lanes(above / below, below > 0.0f);
 }
 
-/* Where none of a half's samples met the surface, the other half stands in. */
+/* What a group's colours are multiplied by to be light: rgb of the first half of samples, then of the second. Where none
+   of a half's samples met the surface, the other half stands in. */
 inline void shares_of_light(const Means8* m, float shares[6][WEDGE_LANES]) {
     const int8 first = m->v1 > 0.0f, second = m->v3 > 0.0f;
     const float8 half0 = over_or_none(first ? m->v0 : m->v2, first ? m->v1 : m->v3);
