@@ -8,8 +8,8 @@
 
 #include "host/device/device.hpp"
 #include "host/device/program.hpp"
+#include "planes.hpp"
 #include "wedge/shared/filter.h"
-#include "wedge/shared/planes.h"
 #include "wedge/shared/scene.h"
 
 namespace wedge::test {
@@ -18,19 +18,6 @@ namespace {
 constexpr int kSignals = 2;  // of one light, and of the hemisphere
 constexpr int kMeanPlanes = WEDGE_LIGHT_PLANES + WEDGE_HEMISPHERE_PLANES;
 constexpr int kMaxRadius_px = 4;
-
-/// Arrays in planes, on the host.
-struct Planes {
-    int width, height;
-    std::vector<float> values;
-
-    Planes(int w, int h, int count)
-        : width(w), height(h), values(2 * WEDGE_PLANE_MARGIN + std::size_t(count) * size()) {}
-    std::size_t size() const { return std::size_t(WEDGE_PLANE_PITCH(width)) * height; }
-    float& at(int plane, int x, int y) {
-        return values[WEDGE_PLANE_MARGIN + plane * size() + y * WEDGE_PLANE_PITCH(width) + x];
-    }
-};
 
 /// Bumpy ground; some pixels show it at two heights, some show nothing, some are not filtered.
 /// Pixels are closer than their size, so that it counts how many of them a filter may reach, and
