@@ -198,10 +198,20 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
     return relative_variance / (fmax(pixels, 1.0f) * noise * noise);
 }
 
-/* Width of a signal's filter and how many samples it asks for; `bright`: square of what counts as
-   bright. */
+/* With as many as are asked for, all pixels would have the same error; the image has the least one
+   with others. A pixel's share of its square is `asked` / n, and for a given number of all samples the
+   sum of shares is least where n goes with the root of `asked` (Neyman 1934). Pixels that ask for
+   so many get them; they are more for a larger mu, or noise would fall more slowly than bias: */
+#define WEDGE_MIDDLING_SAMPLES 64.0f /* for mu = 1 */
+
+inline float samples_granted(float mu, float asked) {
+    return sqrt(WEDGE_MIDDLING_SAMPLES * sqrt(mu) * asked);
+}
+
+/* Width of a signal's filter, and how many samples it asks for: by theory and by noise. `bright`:
+   square of what counts as bright. */
 typedef struct {
-    float sigma, samples;
+    float sigma, theory, noise;
 } Need;
 
 inline Need signal_need(__constant FilterSettings* settings, __global const Light* lights,
@@ -209,12 +219,12 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
                         int signal, float3 found, float size, float slanted_size, float bright) {
     const float2 bandwidth =
         signal_bandwidth(settings, lights, sum, signal, found.xy, slanted_size);
-    Need need = {bandwidth.x, 0.0f};
+    Need need = {bandwidth.x, 0.0f, 0.0f};
     const float relative = radiance_variance(sum, reflected, signal, fmax(found.z, 0.0f)) / bright;
     if (!(bandwidth.y > 0.0f && relative > 0.0f)) return need;
     const float pixels = 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (size * slanted_size);
-    need.samples = WEDGE_LIGHT_RAY_SHARE * fmax(fmin(4.0f * relative, 1.0f) * bandwidth.y,
-                                                noise_samples(settings->mu, relative, pixels));
+    need.theory = WEDGE_LIGHT_RAY_SHARE * fmin(4.0f * relative, 1.0f) * bandwidth.y;
+    need.noise = WEDGE_LIGHT_RAY_SHARE * noise_samples(settings->mu, relative, pixels);
     return need;
 }
 
@@ -237,12 +247,14 @@ __kernel void filter_bandwidth(
     const float seen = fmax(film[pixel].normal.w, 1.0f);
     const float own = brightness(film + pixel) - mean_emission(film + pixel);
     const float bright = fmax(own * own + mean_brightness * mean_brightness, 1e-30f);
-    float samples = 0.0f;
+    const RestNoise rest = rest_noise_at(unfiltered, x, y, width, height);
+    float theory = 0.0f, noise = noise_samples(settings->mu, rest.of_sample / bright, 1.0f);
     for (int k = 0; k < WEDGE_SURFACES; ++k) {
         const int id = surface_entry(more, width * height, pixel, k);
         const float size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SIZE, at);
         if (!(size > 0.0f && id >= 0)) break;
         const float slanted_size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SLANTED_SIZE, at);
+        const float share = surface_sums[id].position.w / seen;
         float most = 0.0f;
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
             const int entry = k * WEDGE_SIGNALS + signal;
@@ -253,12 +265,12 @@ __kernel void filter_bandwidth(
                                           reflected + id * WEDGE_SHADOW_LIGHTS, signal, found, size,
                                           slanted_size, bright);
             sigmas[entry * planes.size + at] = need.sigma;
-            most = fmax(most, need.samples);
+            most = fmax(most, need.theory);
+            noise += need.noise * share;
         }
-        if (most > 0.0f) samples += most * surface_sums[id].position.w / seen;
+        theory += most * share;
     }
-    const RestNoise rest = rest_noise_at(unfiltered, x, y, width, height);
-    samples = fmax(samples, noise_samples(settings->mu, rest.of_sample / bright, 1.0f));
+    const float samples = samples_granted(settings->mu, fmax(theory, noise));
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
     const float least = (float)settings->least_samples;
     const float power = nearest_power_of_two(clamp(samples, probes, cap));
