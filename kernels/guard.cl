@@ -15,7 +15,7 @@
    bias of each filter.
 
      guard_errors   noise and drifts of each pixel
-     guard_smooth   their means over neighbours along rows
+     guard_smooth   their means over neighbours along rows, by weight
      guard_choose   those along columns, and the mixture of the least error */
 #include "lib/geometry.clh"
 #include "lib/rest_noise.clh"
@@ -73,17 +73,11 @@ inline ScaleErrors no_errors(void) {
     return none;
 }
 
-inline ScaleErrors add_errors(ScaleErrors a, ScaleErrors b) {
-    const ScaleErrors sum = {a.noise + b.noise, a.drift + b.drift, a.plain + b.plain};
+/* `weight` times b is added. */
+inline ScaleErrors add_errors(ScaleErrors a, float weight, ScaleErrors b) {
+    const ScaleErrors sum = {a.noise + weight * b.noise, a.drift + weight * b.drift,
+                             (float4)(a.plain.xyz + weight * b.plain.xyz, a.plain.w + b.plain.w)};
     return sum;
-}
-
-/* Of a sum over so many. */
-inline ScaleErrors mean_of(ScaleErrors sum, float count) {
-    const float share = 1.0f / count;
-    const ScaleErrors mean = {sum.noise * share, sum.drift * share,
-                              (float4)(sum.plain.xyz * share, sum.plain.w)};
-    return mean;
 }
 
 /* Of a part. */
@@ -112,13 +106,26 @@ __kernel void guard_errors(__global const SampledLight* restrict unfiltered,
     errors[id] = n1 > 0.0f ? errors_of(plain, n0 + n1, light + id, count) : no_errors();
 }
 
-/* Mean of `errors` over WEDGE_GUARD_RADIUS pixels to each side, as far as they are on the film. */
+/* Mean of `errors` over WEDGE_GUARD_RADIUS pixels to each side, as far as they are on the film. The
+   nearer they are the more they count, or what is only a line would drown in what is beside it. Of
+   weights w the mean varies as much as a plain one over (sum of w)^2 / (sum of w^2) pixels. */
 inline ScaleErrors mean_errors(__global const ScaleErrors* errors, int first, int stride,
                                int before, int after) {
     ScaleErrors sum = no_errors();
+    float weights = 0.0f, squares = 0.0f, pixels = 0.0f;
     const int begin = -min(before, WEDGE_GUARD_RADIUS), end = min(after, WEDGE_GUARD_RADIUS);
-    for (int i = begin; i <= end; ++i) sum = add_errors(sum, errors[first + i * stride]);
-    return mean_of(sum, (float)(end - begin + 1));
+    for (int i = begin; i <= end; ++i) {
+        const float weight = (float)(WEDGE_GUARD_RADIUS + 1 - abs(i));
+        sum = add_errors(sum, weight, errors[first + i * stride]);
+        weights += weight;
+        squares += weight * weight;
+        pixels += 1.0f;
+    }
+    const float share = 1.0f / weights;
+    const ScaleErrors mean = {
+        sum.noise * share, sum.drift * share,
+        (float4)(sum.plain.xyz * share, sum.plain.w * weights * weights / (squares * pixels))};
+    return mean;
 }
 
 __kernel void guard_smooth(__global const ScaleErrors* restrict errors,

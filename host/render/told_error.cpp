@@ -14,16 +14,22 @@ float mean(const Vec3& v) {
 }
 
 /// Replaces `count` values, `stride` apart, by means over WEDGE_GUARD_RADIUS to either side, as far
-/// as there are any. Not by differences of running sums: one huge value would spoil all after it.
+/// as there are any, the nearer the more they count. Not by differences of running sums: one huge
+/// value would spoil all after it.
 void smooth_line(float* values, std::size_t count, std::size_t stride, std::vector<float>& line) {
     line.clear();
     for (std::size_t i = 0; i < count; ++i) line.push_back(values[i * stride]);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t begin = i - std::min<std::size_t>(i, WEDGE_GUARD_RADIUS);
         const std::size_t end = std::min(count, i + WEDGE_GUARD_RADIUS + 1);
-        float sum = 0;
-        for (std::size_t k = begin; k < end; ++k) sum += line[k];
-        values[i * stride] = sum / float(end - begin);
+        float sum = 0, weights = 0;
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto away = float(k < i ? i - k : k - i);
+            const float weight = WEDGE_GUARD_RADIUS + 1 - away;
+            sum += weight * line[k];
+            weights += weight;
+        }
+        values[i * stride] = sum / weights;
     }
 }
 

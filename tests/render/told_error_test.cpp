@@ -1,7 +1,7 @@
 // From the error of a stretch of pixels to that of each pixel and colour.
 #include <doctest/doctest.h>
 
-#include <array>
+#include <tuple>
 
 #include "host/render/told_error.hpp"
 
@@ -49,14 +49,17 @@ TEST_CASE("dark_pixels_and_colours_have_the_same_share_of_their_light") {
 }
 
 TEST_CASE("means_are_those_of_the_guard") {
-    // One bright pixel in a corner, and in the middle: of 6x6 and of 11x11 pixels.
-    for (const auto& [x, y, count] : {std::array{0, 0, 36}, {20, 12, 121}, {kWidth - 1, 12, 66}}) {
+    // One bright pixel, whose weight is 8 of 64 along a line of 15, and of 36 at the line's end.
+    constexpr double kInside = 64.0 / 8, kAtEnd = 36.0 / 8;
+    for (const auto& [x, y, share] : {std::tuple(0, 0, kAtEnd * kAtEnd),
+                                      {20, 12, kInside * kInside},
+                                      {kWidth - 1, 12, kAtEnd * kInside}}) {
         std::vector<GuardedPixel> guarded = grey(1e-3f, 0);
         const auto at = std::size_t(y * kWidth + x);
         guarded[at].direct = {100, 100, 100, 0};
         guarded[at].error.x = 0.5f;
         CHECK(told_errors(guarded, kWidth)[at].x ==
-              doctest::Approx(0.5 * count).epsilon(1e-3).scale(1e-9));
+              doctest::Approx(0.5 * share).epsilon(1e-3).scale(1e-9));
     }
 }
 

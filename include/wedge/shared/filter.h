@@ -79,8 +79,9 @@ WEDGE_ASSERT_SIZE(HalfLight, 32);
 #define WEDGE_SCALE_WIDTHS \
     { 0.0f, 0.25f, 0.5f, 1.0f }
 
-/* Errors are means over pixels up to so far away, along rows and columns. */
-#define WEDGE_GUARD_RADIUS 5
+/* Errors are means over pixels up to so far away, along rows and columns, with weights that fall to
+   nothing beyond: as steady as plain means over 12x12 pixels. */
+#define WEDGE_GUARD_RADIUS 7
 
 /* What the halves tell of the errors of filters of a part, by scale; at pixel * parts + part. */
 typedef struct ScaleErrors {
