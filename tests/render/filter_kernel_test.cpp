@@ -74,14 +74,15 @@ double weight(Film& f, int a, int px, int py, int b, int qx, int qy, int signal,
         off += d[c] * n[c];
         r2 += d[c] * d[c];
     }
-    const double ten_degrees = 10 * 3.14159265358979 / 180;
-    if (cosine < std::cos(ten_degrees)) return 0;
+    const double ten_degrees = 10 * 3.14159265358979 / 180, least = std::cos(2 * ten_degrees);
+    if (cosine < least) return 0;
     const double over = std::abs(off) - 2 * f.place(a, WEDGE_PLACE_SIZE, px, py);
     if (over >= 0 && over * over >= std::pow(std::tan(ten_degrees), 2) * r2) return 0;
     if (along_y) r2 -= d[1] * d[1];
     const double sigma = scale * std::min(double(f.sigmas.at(a * kSignals + signal, px, py)),
                                           double(f.sigmas.at(b * kSignals + signal, qx, qy)));
-    return r2 < 9 * sigma * sigma ? std::exp(-r2 / (2 * sigma * sigma)) : 0;
+    if (r2 >= 9 * sigma * sigma) return 0;
+    return (cosine - least) / (1 - least) * std::exp(-r2 / (2 * sigma * sigma));
 }
 
 /// Mean over a row of plane `c` of a signal; the light's normal is +y.
