@@ -61,7 +61,7 @@ inline ScaleErrors errors_of(const float4* plain, float samples, __global const 
                           *c = light[2 * stride].halves, *d = light[3 * stride].halves;
     ScaleErrors e;
     const float drift = dot_rgb(a[0] - plain[0], a[1] - plain[1]);
-    e.plain = (float4)(plain_noise(plain, a, samples), drift, drift * drift, 1.0f);
+    e.plain = (float4)(plain_noise(plain, a, samples), drift, drift * drift, 0.0f);
     e.noise = (float4)(noise_of(a), noise_of(b), noise_of(c), noise_of(d));
     const float first = drift_of(b, a);
     e.drift = (float4)(first * first, first, drift_of(c, b), drift_of(d, c));
@@ -73,10 +73,12 @@ inline ScaleErrors no_errors(void) {
     return none;
 }
 
-/* `weight` times b is added. */
+/* `weight` times b is added; to variances of means, its square times. */
 inline ScaleErrors add_errors(ScaleErrors a, float weight, ScaleErrors b) {
-    const ScaleErrors sum = {a.noise + weight * b.noise, a.drift + weight * b.drift,
-                             (float4)(a.plain.xyz + weight * b.plain.xyz, a.plain.w + b.plain.w)};
+    const float square = weight * weight;
+    const ScaleErrors sum = {a.noise + weight * b.noise,
+                             a.drift + (float4)(square, weight, weight, weight) * b.drift,
+                             a.plain + (float4)(weight, weight, square, 0.0f) * b.plain};
     return sum;
 }
 
@@ -107,25 +109,18 @@ __kernel void guard_errors(__global const SampledLight* restrict unfiltered,
 }
 
 /* Mean of `errors` over WEDGE_GUARD_RADIUS pixels to each side, as far as they are on the film. The
-   nearer they are the more they count, or what is only a line would drown in what is beside it. Of
-   weights w the mean varies as much as a plain one over (sum of w)^2 / (sum of w^2) pixels. */
+   nearer they are the more they count, or what is only a line would drown in what is beside it. */
 inline ScaleErrors mean_errors(__global const ScaleErrors* errors, int first, int stride,
                                int before, int after) {
     ScaleErrors sum = no_errors();
-    float weights = 0.0f, squares = 0.0f, pixels = 0.0f;
+    float weights = 0.0f;
     const int begin = -min(before, WEDGE_GUARD_RADIUS), end = min(after, WEDGE_GUARD_RADIUS);
     for (int i = begin; i <= end; ++i) {
         const float weight = (float)(WEDGE_GUARD_RADIUS + 1 - abs(i));
         sum = add_errors(sum, weight, errors[first + i * stride]);
         weights += weight;
-        squares += weight * weight;
-        pixels += 1.0f;
     }
-    const float share = 1.0f / weights;
-    const ScaleErrors mean = {
-        sum.noise * share, sum.drift * share,
-        (float4)(sum.plain.xyz * share, sum.plain.w * weights * weights / (squares * pixels))};
-    return mean;
+    return add_errors(no_errors(), 1.0f / weights, sum);
 }
 
 __kernel void guard_smooth(__global const ScaleErrors* restrict errors,
@@ -147,17 +142,17 @@ __kernel void guard_smooth(__global const ScaleErrors* restrict errors,
 #define WEDGE_CLEARLY 1.5f
 
 /* Magnitude of the drift from what was sampled to the pixel's own samples, or from them to the
-   narrowest filter. Pixels are independent there, so that the spread of their products tells the
-   standard error of the mean: one pixel with bright samples in both halves proves nothing. The
-   square of their product is infinite where radiance is beyond some 1e9. */
-inline float first_drift(float product, float square, float pixels, float doubt) {
-    const float luck = doubt > 0.0f ? doubt * sqrt(square / fmax(pixels, 1.0f)) : 0.0f;
+   narrowest filter. Pixels are independent there, so that the squares of their products tell the
+   `variance` of the mean: one pixel with bright samples in both halves proves nothing. The square of
+   their product is infinite where radiance is beyond some 1e9. */
+inline float first_drift(float product, float variance, float doubt) {
+    const float luck = doubt > 0.0f ? doubt * sqrt(variance) : 0.0f;
     return sqrt(fmax(product - luck, 0.0f));
 }
 
 /* The bias of the pixel's own samples, which filters share. */
 inline float shared_bias(ScaleErrors e, float doubt) {
-    return first_drift(e.plain.y, e.plain.z, e.plain.w, doubt);
+    return first_drift(e.plain.y, e.plain.z, doubt);
 }
 
 /* Magnitude of the drift from a filter to the next wider one. What is smooth already is hardly
@@ -173,7 +168,7 @@ inline float4 estimated_errors(ScaleErrors e, float shared, float first_doubt, f
     const float4 n = e.noise;
     float4 bias;
     bias.x = shared;
-    bias.y = bias.x + first_drift(e.drift.y, e.drift.x, e.plain.w, first_doubt);
+    bias.y = bias.x + first_drift(e.drift.y, e.drift.x, first_doubt);
     bias.z = bias.y + next_drift(e.drift.z, n.y, n.z, next_doubt);
     bias.w = bias.z + next_drift(e.drift.w, n.z, n.w, next_doubt);
     return n + bias * bias;

@@ -36,6 +36,14 @@ struct Light {
             }
     }
 
+    static Light without_noise() {
+        Light light;
+        for (int i = 0; i < kPixels; ++i)
+            for (int half = 0; half < 2; ++half)
+                for (int scale = 0; scale < WEDGE_SCALES; ++scale) light.set(i, half, scale, 1);
+        return light;
+    }
+
     /// Scale 0, the pixel's own samples, is also what was sampled.
     void set(int pixel, int half, int scale, float value) {
         for (int part = 0; part < kParts; ++part)
@@ -181,17 +189,23 @@ TEST_CASE("a_thin_line_that_filters_wipe_out_is_kept") {
     }
 }
 
+TEST_CASE("a_pixel_that_was_sampled_badly_keeps_its_filter") {
+    // Both halves have missed what is rare and bright, which the pixel's own light knows of.
+    Light light = Light::without_noise();
+    for (int half = 0; half < 2; ++half) light.sample(kMiddle * kSide + kMiddle, half, 0.5f);
+    const auto guarded = run_guard(light);
+    const shared::GuardedPixel& middle = guarded[std::size_t(kMiddle * kSide + kMiddle)];
+    CHECK(middle.direct.x == doctest::Approx(1).epsilon(1e-3).scale(1e-9));
+    CHECK(middle.indirect.x == doctest::Approx(1).epsilon(1e-3).scale(1e-9));
+}
+
 TEST_CASE("what_is_near_counts_more") {
-    // No noise, and one pixel where all filters are off: others are told its square by their
-    // weights.
+    // One pixel where all filters are off: others are told its square by their weights.
     constexpr float kBias = 0.5f;
-    Light light;
-    for (int i = 0; i < kPixels; ++i)
-        for (int half = 0; half < 2; ++half)
-            for (int scale = 0; scale < WEDGE_SCALES; ++scale) {
-                const bool is_off = scale > 0 && i == kMiddle * kSide + kMiddle;
-                light.set(i, half, scale, is_off ? 1 - kBias : 1);
-            }
+    Light light = Light::without_noise();
+    for (int half = 0; half < 2; ++half)
+        for (int scale = 1; scale < WEDGE_SCALES; ++scale)
+            light.set(kMiddle * kSide + kMiddle, half, scale, 1 - kBias);
     const auto guarded = run_guard(light, WEDGE_FILTER_MODE_PLAIN);
     const auto told = [&](int x, int y) {
         return double(guarded[std::size_t((kMiddle + y) * kSide + kMiddle + x)].error.x);

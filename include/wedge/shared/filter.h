@@ -87,9 +87,9 @@ WEDGE_ASSERT_SIZE(HalfLight, 32);
 typedef struct ScaleErrors {
     float4 noise; /* mean square, of the mean of both halves */
     float4 drift; /* y, z, w: square of what the filter adds to the bias of the next narrower one;
-                     x: y's own square, of a pixel before it is smoothed */
+                     x: square of y, of a pixel; of a mean over pixels, its variance */
     float4 plain; /* of the pixel's radiance as it was sampled; x: noise; y: square of the drift
-                     from it to the first scale; z: y's own square; w: pixels this is a mean of */
+                     from it to the first scale; z: as drift.x, of y; w: 0 */
 } ScaleErrors;
 WEDGE_ASSERT_SIZE(ScaleErrors, 48);
 
