@@ -199,9 +199,9 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
 }
 
 /* With as many as are asked for, all pixels would have the same error; the image has the least one
-   with others. A pixel's share of its square is `asked` / n, and for a given number of all samples the
-   sum of shares is least where n goes with the root of `asked` (Neyman 1934). Pixels that ask for
-   so many get them; they are more for a larger mu, or noise would fall more slowly than bias: */
+   with others. A pixel's share of its square is `asked` / n, and for a given number of all samples
+   the sum of shares is least where n goes with the root of `asked` (Neyman 1934). Pixels that ask
+   for so many get them; more for a larger mu, or noise would fall more slowly than bias: */
 #define WEDGE_MIDDLING_SAMPLES 64.0f /* for mu = 1 */
 
 inline float samples_granted(float mu, float asked) {

@@ -143,8 +143,8 @@ __kernel void guard_smooth(__global const ScaleErrors* restrict errors,
 
 /* Magnitude of the drift from what was sampled to the pixel's own samples, or from them to the
    narrowest filter. Pixels are independent there, so that the squares of their products tell the
-   `variance` of the mean: one pixel with bright samples in both halves proves nothing. The square of
-   their product is infinite where radiance is beyond some 1e9. */
+   `variance` of the mean: one pixel with bright samples in both halves proves nothing. The square
+   of their product is infinite where radiance is beyond some 1e9. */
 inline float first_drift(float product, float variance, float doubt) {
     const float luck = doubt > 0.0f ? doubt * sqrt(variance) : 0.0f;
     return sqrt(fmax(product - luck, 0.0f));
