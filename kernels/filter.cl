@@ -1,13 +1,13 @@
 /* Axis-aligned filtering, between the sampling passes (path.cl) and the image:
      filter_means      sums over samples to what is filtered
-     filter_x, filter_y   a Gaussian along rows, then along columns; after the latter, filtered signals times what was not
-                       filtered, texture and unshadowed light
+     filter_x, filter_y   lines fitted along rows, then along columns, by Gaussian weights; after the latter, filtered
+                       signals times what was not filtered, texture and unshadowed light
      filter_none       the same without a filter
    Widths are those of bandwidth.cl. What is done with the result: guard.cl.
    Arrays: include/wedge/shared/filter.h; places, sigmas and means in planes. Filters work on eight pixels side by side
    (lib/planes.clh). */
 #include "lib/filter_weight.clh"
-#include "lib/means.clh"
+#include "lib/line_fit.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
@@ -73,36 +73,16 @@ inline float8 filter_reach8(const Filter* filter, const Places8* p, float8 sigma
     return keep_lanes(lesser8(reach, (float8)((float)filter->settings->max_radius_px)), filters);
 }
 
-inline float8 add_lanes(float8 sums, float8 weights, int8 counts, __global const float* values) {
-    return select(sums, sums + weights * vload8(0, values), counts);
-}
-
-/* Where nothing counts there may be anything. */
-inline void add_means8(Means8* sums, float8 weights, int8 counts, const Filter* filter, int surface, int signal,
-                       ulong at) {
-    const ulong size = filter->planes.size;
-    __global const float* v = filter->signals + first_plane(surface, signal) * size + at;
-    sums->v0 = add_lanes(sums->v0, weights, counts, v);
-    sums->v1 = add_lanes(sums->v1, weights, counts, v + size);
-    sums->v2 = add_lanes(sums->v2, weights, counts, v + 2 * size);
-    sums->v3 = add_lanes(sums->v3, weights, counts, v + 3 * size);
-    if (is_light(signal)) return;
-    sums->v4 = add_lanes(sums->v4, weights, counts, v + 4 * size);
-    sums->v5 = add_lanes(sums->v5, weights, counts, v + 5 * size);
-    sums->v6 = add_lanes(sums->v6, weights, counts, v + 6 * size);
-    sums->v7 = add_lanes(sums->v7, weights, counts, v + 7 * size);
-}
-
-/* Means over a line, by weight, of one signal of one surface of a group's pixels. */
+/* What a line of pixels makes of one signal of one surface of a group's pixels. */
 inline Means8 filter_line(const Filter* filter, const Group* group, Line line, int surface, int signal) {
     const Planes* planes = &filter->planes;
     const Places8 p = load_places8(planes, filter->places, surface, group->at);
     const float8 sigma = filter_sigma8(filter, surface * WEDGE_SIGNALS + signal, group->at);
     const float8 reach = filter_reach8(filter, &p, sigma);
     const float3 along = filter_axis(filter, signal);
-    float8 weights = 1.0f;
-    Means8 sums = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
-    add_means8(&sums, weights, p.size > 0.0f, filter, surface, signal, group->at);
+    const Means8 own = load_means8(planes, filter->signals, surface, signal, group->at);
+    LineSums8 sums = no_line8();
+    add_to_line8(&sums, 0.0f, 1.0f, p.size > 0.0f, &own, signal);
 
     const int radius = (int)largest_lane(reach);
     for (int i = -min(radius, line.before); i <= min(radius, line.after); ++i) {
@@ -117,12 +97,11 @@ inline Means8 filter_line(const Filter* filter, const Group* group, Line line, i
             const float8 w = keep_lanes(filter_weight8(&p, sigma, &q, sigma_q, along), is_there);
             const int8 counts = w > 0.0f;
             if (!lane_bits8(counts)) continue;
-            add_means8(&sums, w, counts, filter, other, signal, at);
-            weights += w;
+            const Means8 theirs = load_means8(planes, filter->signals, other, signal, at);
+            add_to_line8(&sums, (float)i, w, counts, &theirs, signal);
         }
     }
-    scale_means8(&sums, 1.0f / weights);
-    return sums;
+    return fit_line8(&sums, signal);
 }
 
 inline float8 over_or_none(float8 above, float8 below) {

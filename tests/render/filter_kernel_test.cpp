@@ -1,10 +1,11 @@
-// The filter's kernels against sums in double precision, pixel by pixel, on films whose rows are
-// not whole groups.
+// The filter's kernels against lines fitted in double precision, pixel by pixel, on films whose
+// rows are not whole groups.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "host/device/device.hpp"
 #include "host/device/program.hpp"
@@ -85,19 +86,71 @@ double weight(Film& f, int a, int px, int py, int b, int qx, int qy, int signal,
     return (cosine - least) / (1 - least) * std::exp(-r2 / (2 * sigma * sigma));
 }
 
-/// Mean over a row of plane `c` of a signal; the light's normal is +y.
-double filtered(Film& f, int surface, int signal, int c, int x, int y, double scale) {
-    const int plane = (signal == 0 ? 0 : WEDGE_LIGHT_PLANES) + c;
+/// Sums over pixels of a row, by weight, for one surface of a pixel; the light's normal is +y.
+struct Row {
+    double weights = 0;
+    double sums[WEDGE_HEMISPHERE_PLANES] = {}, moments[WEDGE_HEMISPHERE_PLANES] = {},
+           squares[WEDGE_HEMISPHERE_PLANES] = {};
+};
+
+int planes_of(int signal) {
+    return signal == 0 ? WEDGE_LIGHT_PLANES : WEDGE_HEMISPHERE_PLANES;
+}
+
+int first_plane(int surface, int signal) {
+    return surface * kMeanPlanes + (signal == 0 ? 0 : WEDGE_LIGHT_PLANES);
+}
+
+Row sum_row(Film& f, int surface, int signal, int x, int y, double scale) {
     const double sigma = scale * double(f.sigmas.at(surface * kSignals + signal, x, y));
     const int reach = std::min(int(std::ceil(3 * sigma / 0.1)), kMaxRadius_px);
-    double sum = double(f.means.at(surface * kMeanPlanes + plane, x, y)), weights = 1;
+    Row row;
+    const auto add = [&](int other, int q, double w) {
+        row.weights += w;
+        for (int c = 0; c < planes_of(signal); ++c) {
+            const double v = double(f.means.at(first_plane(other, signal) + c, q, y));
+            row.sums[c] += w * v;
+            row.moments[c] += w * v * (q - x);
+            row.squares[c] += w * v * (q - x) * (q - x);
+        }
+    };
+    add(surface, x, 1);
     for (int q = std::max(x - reach, 0); q <= std::min(x + reach, f.means.width - 1); ++q)
         for (int b = 0; b < WEDGE_SURFACES && q != x; ++b) {
             const double w = weight(f, surface, x, y, b, q, y, signal, scale, signal == 0);
-            if (w > 0) sum += w * double(f.means.at(b * kMeanPlanes + plane, q, y));
-            weights += w;
+            if (w > 0) add(b, q, w);
         }
-    return sum / weights;
+    return row;
+}
+
+/// Of a channel, whose weights are those of `seen`.
+double slope(const Row& row, int channel, int seen) {
+    const double n = row.sums[seen], distance = row.moments[seen] / n;
+    return (row.moments[channel] - distance * row.sums[channel]) /
+           (row.squares[seen] - distance * row.moments[seen] + n / 12);
+}
+
+/// What is made of a row: what a line fitted to it is at the pixel, as far as the slopes of both
+/// halves agree.
+std::vector<double> fit(const Row& row, int signal) {
+    const int count = planes_of(signal), half = count / 2, seen = half - 1;
+    std::vector<double> fitted(row.sums, row.sums + count);
+    double product = 0, difference2 = 0;
+    for (int c = 0; c < seen; ++c) {
+        const double a = slope(row, c, seen), b = slope(row, half + c, half + seen);
+        product += a * b;
+        difference2 += (a - b) * (a - b);
+    }
+    const double trust = product > 0 ? product / (product + difference2 / 4) : 0;
+    for (int h = 0; h < 2; ++h)
+        for (int c = 0; c < seen; ++c) {
+            double& v = fitted[std::size_t(h * half + c)];
+            const double sum = row.sums[h * half + seen], moment = row.moments[h * half + seen];
+            v = std::max(v - trust * slope(row, h * half + c, h * half + seen) * moment, 0.0);
+            if (signal == 0) v = std::min(v, sum);
+        }
+    for (double& v : fitted) v /= row.weights;
+    return fitted;
 }
 
 Planes run_filter_x(device::Device& device, Film& film, float scale) {
@@ -132,7 +185,7 @@ Planes run_filter_x(device::Device& device, Film& film, float scale) {
     return result;
 }
 
-TEST_CASE("filters_along_rows_are_the_sums_that_they_should_be") {
+TEST_CASE("filters_along_rows_are_the_lines_that_they_should_be") {
     device::Device device;
     for (const auto& [width, height] : {std::pair(1, 1), std::pair(5, 7), std::pair(21, 6)}) {
         Film film(width, height);
@@ -144,17 +197,73 @@ TEST_CASE("filters_along_rows_are_the_sums_that_they_should_be") {
                 for (int x = 0; x < width; ++x)
                     for (int k = 0; k < WEDGE_SURFACES; ++k) {
                         if (!(film.place(k, WEDGE_PLACE_SIZE, x, y) > 0)) continue;
-                        for (int c = 0; c < kMeanPlanes; ++c) {
-                            const int signal = c < WEDGE_LIGHT_PLANES ? 0 : 1;
-                            const int in_signal = signal == 0 ? c : c - WEDGE_LIGHT_PLANES;
-                            const double truth =
-                                filtered(film, k, signal, in_signal, x, y, double(scale));
-                            const double is = double(found.at(k * kMeanPlanes + c, x, y));
-                            worst = std::max(worst, std::isfinite(is) ? std::abs(is - truth) : 1);
+                        for (int signal = 0; signal < kSignals; ++signal) {
+                            const std::vector<double> truth =
+                                fit(sum_row(film, k, signal, x, y, double(scale)), signal);
+                            for (int c = 0; c < planes_of(signal); ++c) {
+                                const double is =
+                                    double(found.at(first_plane(k, signal) + c, x, y));
+                                const double off = std::abs(is - truth[std::size_t(c)]);
+                                worst = std::max(worst, std::isfinite(is) ? off : 1);
+                            }
                         }
                     }
             CHECK(worst < 5e-4);
         }
+    }
+}
+
+/// One row of flat ground, filtered over four pixels, whose light in the two halves is
+/// `level` + `first`, `second` times x.
+Film sloping_row(float level, float first, float second) {
+    Film film(21, 1);
+    for (int x = 0; x < 21; ++x) {
+        for (int k = 0; k < WEDGE_SURFACES; ++k)
+            film.places.at(k * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, x, 0) = 0;
+        const int place[] = {WEDGE_PLACE_X,  WEDGE_PLACE_Y,  WEDGE_PLACE_Z, WEDGE_PLACE_SIZE,
+                             WEDGE_PLACE_NX, WEDGE_PLACE_NY, WEDGE_PLACE_NZ};
+        const float at[] = {0.1f * float(x), 0, 0, 0.1f, 0, 1, 0};
+        for (int i = 0; i < 7; ++i) film.places.at(place[i], x, 0) = at[i];
+        for (int s = 0; s < kSignals; ++s) film.sigmas.at(s, x, 0) = 0.4f;
+        for (int c = 0; c < kMeanPlanes; ++c) {
+            const bool is_first = c < WEDGE_LIGHT_PLANES
+                                      ? c < WEDGE_LIGHT_PLANES / 2
+                                      : c - WEDGE_LIGHT_PLANES < WEDGE_HEMISPHERE_PLANES / 2;
+            film.means.at(c, x, 0) = level + (is_first ? first : second) * float(x);
+        }
+        for (int c : {1, 3, WEDGE_LIGHT_PLANES + 3, WEDGE_LIGHT_PLANES + 7})
+            film.means.at(c, x, 0) = 1;
+    }
+    return film;
+}
+
+TEST_CASE("light_that_rises_evenly_is_not_changed_where_a_surface_ends") {
+    device::Device device;
+    Film film = sloping_row(0.2f, 0.03f, 0.03f);
+    Planes found = run_filter_x(device, film, 1.0f);
+    for (int x : {0, 1, 10, 20})
+        for (int c : {0, 2, WEDGE_LIGHT_PLANES, WEDGE_LIGHT_PLANES + 6}) {
+            CAPTURE(x);
+            CAPTURE(c);
+            // A mean at the border is off by 0.05; what is left is that pixels are not points.
+            CHECK(found.at(c, x, 0) == doctest::Approx(film.means.at(c, x, 0)).epsilon(0.02));
+        }
+}
+
+TEST_CASE("slopes_that_the_halves_do_not_agree_on_are_none") {
+    device::Device device;
+    Film film = sloping_row(0.5f, 0.02f, -0.02f);
+    Planes found = run_filter_x(device, film, 1.0f);
+    const double gaussian[] = {1, std::exp(-0.03125), std::exp(-0.125), std::exp(-0.28125),
+                               std::exp(-0.5)};
+    double weights = 0, mean = 0;
+    for (int i = 0; i <= kMaxRadius_px; ++i) {
+        weights += gaussian[i];
+        mean += gaussian[i] * (0.5 + 0.02 * i);
+    }
+    for (int c : {0, WEDGE_LIGHT_PLANES, WEDGE_LIGHT_PLANES + 2}) {
+        CAPTURE(c);
+        CHECK(found.at(c, 0, 0) == doctest::Approx(mean / weights).epsilon(1e-3));
     }
 }
 
