@@ -186,8 +186,21 @@ inline float4 mean_of_halves(__global const HalfLight* light) {
 /* What is made of a part of a pixel. */
 typedef struct {
     float4 light; /* rgb, w: width of the filter that was taken, as a share of the full one */
-    float error;  /* mean square */
+    float error;    /* mean square */
+    float measured; /* the same, by the pixel's own halves alone */
 } Chosen;
+
+/* Mean square error of `share` of a filter and the rest of the pixel's own samples. What the
+   filter changes has the filter's bias as its mean, in both halves, and noise that has nothing in
+   common. `shared`: bias of the pixel's own samples. */
+inline float measured_error(float share, __global const HalfLight* own,
+                            __global const HalfLight* filtered, float shared) {
+    __global const float4 *o = own->halves, *f = filtered->halves;
+    const float4 noise = mix(o[0], f[0], share) - mix(o[1], f[1], share);
+    const float product = share * share * dot_rgb(f[0] - o[0], f[1] - o[1]);
+    return 0.25f * dot_rgb(noise, noise) + product +
+           shared * (shared + 2.0f * sqrt(fmax(product, 0.0f)));
+}
 
 /* Bias and noise are independent, so the mean of a filter and none weighted by the errors is better
    than both. None is the pixel's own samples, and the bias that they share with filters does not
@@ -211,9 +224,12 @@ inline Chosen choose(float doubt, ScaleErrors estimates, __global const HalfLigh
     const float rest = 1.0f - share;
     const float4 none = is_plain ? unfiltered : mean_of_halves(light);
     const float4 filtered = mean_of_halves(light + best * stride);
-    const Chosen c = {
-        (float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share),
-        share * share * told[best] + rest * rest * (is_plain ? plain : likely.x)};
+    const float error = share * share * told[best] + rest * rest * (is_plain ? plain : likely.x);
+    const float shared_likely = shared_bias(estimates, WEDGE_NO_DOUBT);
+    const Chosen c = {(float4)(mix(none.xyz, filtered.xyz, share), widths[best] * share), error,
+                      is_plain ? error
+                               : measured_error(share, light, light + best * stride,
+                                                shared_likely)};
     return c;
 }
 
@@ -229,11 +245,12 @@ inline Chosen choose_by_mode(__constant FilterSettings* settings, int part, Scal
     if (settings->mode == WEDGE_FILTER_MODE_GUARDED)
         return choose(doubt_of(settings, part), estimates, light, stride, unfiltered);
     const bool everywhere = settings->mode == WEDGE_FILTER_MODE_PLAIN;
-    const float4 filtered = mean_of_halves(light + (WEDGE_SCALES - 1) * stride);
-    const Chosen c = {
-        everywhere ? (float4)(filtered.xyz, 1.0f) : (float4)(unfiltered.xyz, 0.0f),
-        everywhere ? likely_errors(estimates).w : estimates.plain.x};
-    return c;
+    __global const HalfLight* filter = light + (WEDGE_SCALES - 1) * stride;
+    const Chosen c = {(float4)(mean_of_halves(filter).xyz, 1.0f), likely_errors(estimates).w,
+                      measured_error(1.0f, light, filter,
+                                     shared_bias(estimates, WEDGE_NO_DOUBT))};
+    const Chosen plain = {(float4)(unfiltered.xyz, 0.0f), estimates.plain.x, estimates.plain.x};
+    return everywhere ? c : plain;
 }
 
 /* What the kernel below knows; the arrays are all pixels'. */
@@ -265,7 +282,7 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     if (id >= width * height) return;
     const Guard guard = {settings, unfiltered, light, errors, width, height};
     const int x = id % width, y = id / width;
-    const Chosen nothing = {(float4)(0.0f), 0.0f};
+    const Chosen nothing = {(float4)(0.0f), 0.0f, 0.0f};
     Chosen direct = nothing, indirect = nothing;
     if (WEDGE_SHADOW_LIGHTS > 0) direct = choose_part(&guard, x, y, WEDGE_PART_DIRECT);
     if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
@@ -273,6 +290,7 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     const float rest = rest_noise_at(unfiltered, x, y, width, height).of_mean /
                        sample_count(unfiltered + id);
     const GuardedPixel g = {direct.light, indirect.light,
-                            (float4)(direct.error, indirect.error, rest, 0.0f)};
+                            (float4)(direct.error, indirect.error, rest, 0.0f),
+                            (float4)(direct.measured, indirect.measured, 0.0f, 0.0f)};
     guarded[id] = g;
 }

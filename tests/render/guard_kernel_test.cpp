@@ -133,6 +133,23 @@ TEST_CASE("noise_alone_is_filtered") {
     CHECK(corner.error / middle.error < 3);
 }
 
+TEST_CASE("what_pixels_measure_is_their_error_in_the_mean") {
+    for (float bias : {0.0f, 0.03f, 0.1f, 0.3f}) {
+        CAPTURE(bias);
+        constexpr uint32_t kSeeds = 16;
+        double measured = 0, squares = 0, found = 0;
+        for (uint32_t seed = 1; seed <= kSeeds; ++seed)
+            for (const shared::GuardedPixel& pixel : run_guard(Light(bias, seed))) {
+                measured += double(pixel.measured.y);
+                squares += std::pow(double(pixel.measured.y), 2);
+                found += std::pow(double(pixel.indirect.x) - 1, 2);
+            }
+        CHECK(found > 0);
+        // Which filter is taken goes by the same halves: luck that makes it look good counts, too.
+        CHECK(std::abs(measured - found) < 4 * std::sqrt(squares) + 0.1 * found);
+    }
+}
+
 TEST_CASE("noise_of_samples_goes_with_their_brightness") {
     // Up to where its square, and down to where that of what is sampled, has no place in a float.
     for (float brightness : {1e-30f, 1e-12f, 1.0f, 1e12f}) {

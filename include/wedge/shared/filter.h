@@ -99,8 +99,10 @@ typedef struct GuardedPixel {
     float4 indirect; /* rgb, w: the same */
     float4 error;    /* estimated mean square errors; x, y: of the two over rgb; z: of light not
                         filtered; w: of edges in the pixel */
+    float4 measured; /* x, y: the first two by this pixel's halves alone: right in the mean over
+                        pixels, and as likely below 0 as not; z, w: 0 */
 } GuardedPixel;
-WEDGE_ASSERT_SIZE(GuardedPixel, 48);
+WEDGE_ASSERT_SIZE(GuardedPixel, 64);
 
 /* Mean place of a surface in a pixel, in planes (planes.h), WEDGE_PLACE_PLANES a surface: position
    in the world, length of a pixel there seen face-on (0: nothing is there), unit normal, and the
