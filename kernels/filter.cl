@@ -36,7 +36,7 @@ __kernel void filter_means(__global const SampledLight* restrict unfiltered,
         if (id < 0 || !has_surface(&planes, places, surface, at)) break;
         __global const float4* s = sums + 2u * ((uint)id * WEDGE_SIGNALS + (uint)signal);
         const float4 a = first > 0.0f ? s[0] / first : (float4)(0.0f);
-        const float4 b = second > 0.0f ? s[1] / second : a;
+        const float4 b = second > 0.0f ? s[1] / second : (float4)(0.0f);
         const float8 values = is_light(signal) ? (float8)(a.xy, b.xy, 0.0f, 0.0f, 0.0f, 0.0f) : (float8)(a, b);
         set_means(&planes, means, surface, signal, at, values);
     }
@@ -82,7 +82,7 @@ inline Means8 filter_line(const Filter* filter, const Group* group, Line line, i
     const float3 along = filter_axis(filter, signal);
     const Means8 own = load_means8(planes, filter->signals, surface, signal, group->at);
     LineSums8 sums = no_line8();
-    add_to_line8(&sums, 0.0f, 1.0f, p.size > 0.0f, &own, signal);
+    add_to_line8(&sums, 0.0f, (float8)(1.0f), p.size > 0.0f, &own, signal);
 
     const int radius = (int)largest_lane(reach);
     for (int i = -min(radius, line.before); i <= min(radius, line.after); ++i) {

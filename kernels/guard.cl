@@ -191,8 +191,9 @@ typedef struct {
 } Chosen;
 
 /* Mean square error of `share` of a filter and the rest of the pixel's own samples. What the
-   filter changes has the filter's bias as its mean, in both halves, and noise that has nothing in
-   common. `shared`: bias of the pixel's own samples. */
+   filter changes has the filter's bias as its mean, in both halves; noise that halves have in
+   common counts in the product, as it does in their mean. `shared`: bias of the pixel's own
+   samples, of a mean over pixels. */
 inline float measured_error(float share, __global const HalfLight* own,
                             __global const HalfLight* filtered, float shared) {
     __global const float4 *o = own->halves, *f = filtered->halves;

@@ -58,7 +58,8 @@ float share_that_is_measured(std::span<const shared::GuardedPixel> guarded) {
         squares += pixel * pixel;
     }
     const double share = (std::max(measured, 0.0) + std::sqrt(squares)) / told;
-    return share < 1 ? float(share) : 1.0f;  // also if it is no number
+    // Also if what is measured is no number.
+    return share < 1 && std::isfinite(told) ? float(share) : 1.0f;
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace wedge::rendering {
 /// and what edges in the pixel leave. `width`: pixels in a row.
 ///
 /// The guard tells one error for all pixels around. Noise and bias go with the light, so that in a
-/// dark pixel or colour they are the same share of it, not as large. In all they are no more than
-/// what pixels measure by themselves.
+/// dark pixel or colour they are the same share of it, not as large. What the guard tells is scaled
+/// so that it adds up to no more than what pixels measure, and its standard error.
 std::vector<Vec3> told_errors(std::span<const shared::GuardedPixel> guarded, std::size_t width);
 
 }  // namespace wedge::rendering

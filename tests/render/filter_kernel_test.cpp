@@ -56,6 +56,9 @@ struct Film {
                 uniform(random) < 0.2f ? 0 : 0.3f * uniform(random);
         for (int c = 0; c < kMeanPlanes; ++c)
             means.at(surface * kMeanPlanes + c, x, y) = uniform(random);
+        // A few pixels' second halves have not met the surface.
+        if (uniform(random) < 0.2f)
+            for (int c : {2, 3, 8, 9, 10, 11}) means.at(surface * kMeanPlanes + c, x, y) = 0;
     }
 
     double place(int surface, int what, int x, int y) {
@@ -125,7 +128,7 @@ Row sum_row(Film& f, int surface, int signal, int x, int y, double scale) {
 
 /// Of a channel, whose weights are those of `seen`.
 double slope(const Row& row, int channel, int seen) {
-    const double n = row.sums[seen], distance = row.moments[seen] / n;
+    const double n = row.sums[seen] > 0 ? row.sums[seen] : 1, distance = row.moments[seen] / n;
     return (row.moments[channel] - distance * row.sums[channel]) /
            (row.squares[seen] - distance * row.moments[seen] + n / 12);
 }
@@ -146,7 +149,8 @@ std::vector<double> fit(const Row& row, int signal) {
         for (int c = 0; c < seen; ++c) {
             double& v = fitted[std::size_t(h * half + c)];
             const double sum = row.sums[h * half + seen], moment = row.moments[h * half + seen];
-            v = std::max(v - trust * slope(row, h * half + c, h * half + seen) * moment, 0.0);
+            v = std::clamp(v - trust * slope(row, h * half + c, h * half + seen) * moment, 0.0,
+                           2 * v);
             if (signal == 0) v = std::min(v, sum);
         }
     for (double& v : fitted) v /= row.weights;
@@ -246,7 +250,8 @@ TEST_CASE("light_that_rises_evenly_is_not_changed_where_a_surface_ends") {
             CAPTURE(x);
             CAPTURE(c);
             // A mean at the border is off by 0.05; what is left is that pixels are not points.
-            CHECK(found.at(c, x, 0) == doctest::Approx(film.means.at(c, x, 0)).epsilon(0.02));
+            CHECK(found.at(c, x, 0) ==
+                  doctest::Approx(film.means.at(c, x, 0)).epsilon(0.02).scale(1e-9));
         }
 }
 

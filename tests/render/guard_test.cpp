@@ -69,7 +69,7 @@ TEST_CASE("the_error_layer_tells_the_error") {
         CAPTURE(gloss);
         CAPTURE(ratio);
         CHECK(ratio > (gloss > 0 ? 0.85 : 0.6));
-        // Bias that there may be is told, and a filter that fits lines has little of it.
+        // Bias that there may be is told; 1.8 without gloss.
         CHECK(ratio < 2.0);
     }
 }

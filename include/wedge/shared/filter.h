@@ -99,8 +99,8 @@ typedef struct GuardedPixel {
     float4 indirect; /* rgb, w: the same */
     float4 error;    /* estimated mean square errors; x, y: of the two over rgb; z: of light not
                         filtered; w: of edges in the pixel */
-    float4 measured; /* x, y: the first two by this pixel's halves alone: right in the mean over
-                        pixels, and as likely below 0 as not; z, w: 0 */
+    float4 measured; /* x, y: the first two where this pixel's halves tell them, which is right in
+                        the mean over pixels and may be below 0; z, w: 0 */
 } GuardedPixel;
 WEDGE_ASSERT_SIZE(GuardedPixel, 64);
 
