@@ -179,6 +179,26 @@ TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
     }
 }
 
+// Four lamps in one place are one lamp four times as bright. Each has samples of its own, so that
+// the noise of all is half of that of the one; that of any is a quarter.
+TEST_CASE("noise_of_all_lamps_decides_how_many_samples_there_are") {
+    const Scene one = make_penumbra(LightProfile::uniform);
+    Scene four = one;
+    four.rect_lights[0].radiance = 0.25f * one.rect_lights[0].radiance;
+    four.rect_lights.resize(4, four.rect_lights[0]);
+    // Beyond the least, which all pixels get.
+    const auto more = [](const Scene& scene) {
+        const auto spp = channel_values(render(scene, filtered(2)).image, "spp");
+        double sum = 0;
+        for (double n : spp) sum += n - 16;
+        return sum / double(spp.size());
+    };
+    const double by_one = more(one), by_four = more(four);
+    CHECK(by_one > 10);
+    CHECK(by_four < by_one);
+    CHECK(by_four > 0.7 * by_one);  // 0.84; 0.56 were the noise of one of them counted
+}
+
 // docs/cli.md, at --spp.
 TEST_CASE("most_samples_are_powers_of_two_that_rise_with_mu") {
     const Scene scene = make_room(0);
