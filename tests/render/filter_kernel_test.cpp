@@ -272,5 +272,54 @@ TEST_CASE("slopes_that_the_halves_do_not_agree_on_are_none") {
     }
 }
 
+TEST_CASE("lines_make_no_light_less_than_none") {
+    // Dark at one end, and steep beyond: the line through it is below 0 at the end.
+    device::Device device;
+    Film film = sloping_row(0, 0, 0);
+    for (int x = 3; x < 21; ++x)
+        for (int c : {0, 2, WEDGE_LIGHT_PLANES, WEDGE_LIGHT_PLANES + 4})
+            film.means.at(c, x, 0) = 0.4f * float(x - 2);
+    Planes found = run_filter_x(device, film, 1.0f);
+    for (int c : {0, 2, WEDGE_LIGHT_PLANES, WEDGE_LIGHT_PLANES + 4}) CHECK(found.at(c, 0, 0) == 0);
+    CHECK(found.at(0, 2, 0) > 0);
+}
+
+TEST_CASE("a_half_without_samples_has_no_say") {
+    // A render that was stopped after the first sample of a pixel.
+    device::Device device;
+    const device::ProgramRequest request{"kernels/filter.cl",
+                                         {"WEDGE_SHADOW_LIGHTS=1", "WEDGE_FILTER_HEMISPHERE=1"}};
+    const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
+    cl::Kernel kernel = programs[0].kernel("filter_means");
+    Planes places(1, 1, WEDGE_SURFACES * WEDGE_PLACE_PLANES);
+    places.at(WEDGE_PLACE_SIZE, 0, 0) = 1;
+    Planes means(1, 1, WEDGE_SURFACES * kMeanPlanes);
+    std::fill(means.values.begin(), means.values.end(), NAN);
+    shared::SampledLight unfiltered{};
+    unfiltered.direct[0].w = 1;
+    std::vector<shared::float4> sums(std::size_t(2 * kSignals * WEDGE_SURFACES));
+    for (int signal = 0; signal < kSignals; ++signal)
+        sums[std::size_t(2 * signal)] = {0.1f, 0.2f, 0.3f, 1};
+    const std::vector<cl_uint> more(2);
+    const auto upload = [&](const auto& items) {
+        return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), "array",
+                                   CL_MEM_READ_WRITE);
+    };
+    const cl::Buffer kept[] = {device.upload_bytes(&unfiltered, sizeof(unfiltered), "unfiltered"),
+                               upload(places.values), upload(sums), upload(more),
+                               upload(means.values)};
+    cl_uint index = 0;
+    for (const cl::Buffer& buffer : kept) kernel.setArg(index++, buffer);
+    kernel.setArg(index++, cl_int(1));
+    kernel.setArg(index, cl_int(1));
+    device.launch(kernel, 1);
+    device.finish();
+    device.download(kept[4], means.values.data(), means.values.size() * sizeof(float));
+    CHECK(means.at(0, 0, 0) == 0.1f);
+    CHECK(means.at(WEDGE_LIGHT_PLANES + 3, 0, 0) == 1);
+    for (int c : {2, 3, WEDGE_LIGHT_PLANES + 4, WEDGE_LIGHT_PLANES + 7})
+        CHECK(means.at(c, 0, 0) == 0);
+}
+
 }  // namespace
 }  // namespace wedge::test

@@ -44,6 +44,22 @@ struct Light {
         return light;
     }
 
+    /// Makes direct light so much brighter, as it is sampled and at every scale.
+    void brighten_direct(float factor) {
+        for (int pixel = 0; pixel < kPixels; ++pixel)
+            for (int half = 0; half < 2; ++half) {
+                for (int scale = 0; scale < WEDGE_SCALES; ++scale)
+                    scale_by(at(scale, pixel, 0).halves[half], factor);
+                shared::float4& sum = unfiltered[std::size_t(pixel)].direct[half];
+                scale_by(sum, factor);
+                sum.w = kSamples;
+            }
+    }
+
+    static void scale_by(shared::float4& v, float factor) {
+        v = {factor * v.x, factor * v.y, factor * v.z, factor * v.w};
+    }
+
     /// Scale 0, the pixel's own samples, is also what was sampled.
     void set(int pixel, int half, int scale, float value) {
         for (int part = 0; part < kParts; ++part)
@@ -137,17 +153,54 @@ TEST_CASE("what_pixels_measure_is_their_error_in_the_mean") {
     for (float bias : {0.0f, 0.03f, 0.1f, 0.3f}) {
         CAPTURE(bias);
         constexpr uint32_t kSeeds = 16;
-        double measured = 0, squares = 0, found = 0;
-        for (uint32_t seed = 1; seed <= kSeeds; ++seed)
-            for (const shared::GuardedPixel& pixel : run_guard(Light(bias, seed))) {
+        double measured = 0, squares = 0, found = 0, direct = 0;
+        for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+            Light light(bias, seed);
+            light.brighten_direct(2);
+            for (const shared::GuardedPixel& pixel : run_guard(light)) {
                 measured += double(pixel.measured.y);
                 squares += std::pow(double(pixel.measured.y), 2);
                 found += std::pow(double(pixel.indirect.x) - 1, 2);
+                direct += double(pixel.measured.x);
             }
+        }
         CHECK(found > 0);
         // Which filter is taken goes by the same halves: luck that makes it look good counts, too.
         CHECK(std::abs(measured - found) < 4 * std::sqrt(squares) + 0.1 * found);
+        // Twice as bright; the guard doubts both alike here.
+        CHECK(direct == doctest::Approx(4 * measured).epsilon(1e-3).scale(1e-9));
     }
+}
+
+TEST_CASE("filters_everywhere_or_nowhere_are_measured_too") {
+    constexpr float kBias = 0.3f;
+    double everywhere = 0, nowhere = 0, told = 0;
+    for (const auto& pixel : run_guard(Light(kBias), WEDGE_FILTER_MODE_PLAIN))
+        everywhere += double(pixel.measured.x) / kPixels;
+    for (const auto& pixel : run_guard(Light(kBias), WEDGE_FILTER_MODE_NONE)) {
+        nowhere += double(pixel.measured.x) / kPixels;
+        told += double(pixel.error.x) / kPixels;
+    }
+    CHECK(everywhere == doctest::Approx(kBias * kBias).epsilon(0.05).scale(1e-9));
+    CHECK(told > 0);
+    CHECK(nowhere == doctest::Approx(told).epsilon(1e-3).scale(1e-9));
+}
+
+TEST_CASE("bias_that_filters_share_is_measured") {
+    // What was sampled is brighter than any product of means.
+    constexpr float kDifference = 0.1f;
+    Light light;
+    std::mt19937 random(5);
+    std::normal_distribution<float> noise(0, kNoise);
+    for (int i = 0; i < kPixels; ++i)
+        for (int half = 0; half < 2; ++half)
+            light.sample(i, half, light.at(0, i, 0).halves[half].x + kDifference + noise(random));
+    double measured = 0;
+    for (const auto& pixel : run_guard(light, WEDGE_FILTER_MODE_PLAIN))
+        measured += double(pixel.measured.x) / kPixels;
+    // More by what luck adds to roots of products.
+    CHECK(measured > 0.9 * kDifference * kDifference);
+    CHECK(measured < 2 * kDifference * kDifference);
 }
 
 TEST_CASE("noise_of_samples_goes_with_their_brightness") {
@@ -252,8 +305,9 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
             const float own = light.at(0, i, 0).halves[half].x;
             light.sample(i, half, own + difference + noise(random));
         }
-    double direct = 0, indirect = 0, error = 0;
+    double direct = 0, indirect = 0, error = 0, measured = 0;
     for (const auto& pixel : run_guard(light)) {
+        measured += double(pixel.measured.x) / kPixels;
         direct += double(pixel.direct.x) / kPixels;
         indirect += double(pixel.indirect.x) / kPixels;
         error += double(pixel.error.x) / kPixels;
@@ -264,6 +318,8 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
     CHECK(indirect > 1 + 0.5 * double(difference));
     CHECK(error > 0.002);
     CHECK(error < 0.006);
+    CHECK(measured > 0.8 * error);
+    CHECK(measured < 1.2 * error);
 }
 
 TEST_CASE("bias_within_doubt_is_told") {

@@ -68,10 +68,10 @@ TEST_CASE("means_are_those_of_the_guard") {
 }
 
 TEST_CASE("in_all_no_more_is_told_than_what_was_measured_and_its_standard_error") {
-    std::vector<GuardedPixel> guarded = grey(1, 0);
+    std::vector<GuardedPixel> guarded = grey(1, 1);
     // Mean 0.01, with luck a hundred times as large.
     for (std::size_t i = 0; i < guarded.size(); ++i) {
-        guarded[i].error = {0.5f, 0, 0.03f, 0};
+        guarded[i].error = {0.25f, 0.25f, 0.03f, 0};
         guarded[i].measured.x = 0.01f + (i % 2 ? 1.0f : -1.0f);
     }
     const double pixels = kWidth * kHeight, most = 0.01 + std::sqrt((1 + 0.01 * 0.01) / pixels);
@@ -82,6 +82,10 @@ TEST_CASE("in_all_no_more_is_told_than_what_was_measured_and_its_standard_error"
     const double luck = std::sqrt((1 + 0.19 * 0.19) / pixels);
     CHECK(told_errors(guarded, kWidth)[0].x ==
           doctest::Approx(luck + 0.03).epsilon(1e-3).scale(1e-9));
+    // What is no number, or has no place in one, limits nothing.
+    guarded[0].error.x = INFINITY;
+    CHECK(told_errors(guarded, kWidth)[1].x == doctest::Approx(0.53).epsilon(1e-3).scale(1e-9));
+    guarded[0].error.x = 0.25f;
     for (GuardedPixel& pixel : guarded) pixel.measured.x = NAN;
     CHECK(told_errors(guarded, kWidth)[0].x == doctest::Approx(0.53).epsilon(1e-3).scale(1e-9));
 }
