@@ -95,6 +95,14 @@ inline void add_hemisphere(const PixelSignals* signals, int surface, const First
 #define WEDGE_DEPTH_OF_DIRECT_SKY 1
 #endif
 
+/* Russian roulette (Arvo, Kirk 1990): a ray costs as much where little is left to be carried on. Up to
+   this loss since the first hit all paths go on, or smooth light would get the noise of the decision. */
+#define WEDGE_LEAST_THROUGHPUT 0.5f
+
+inline float chance_to_go_on(const Bsdf* f, float3 throughput) {
+    return fmin(max_component(throughput * (f->diffuse + f->specular)) / WEDGE_LEAST_THROUGHPUT, 1.0f);
+}
+
 /* What chooses among the lights that are not filtered. Of light straight from them halves need not be
    independent, and one sequence is better than two. */
 #if WEDGE_SIGNALS > 0 && defined(WEDGE_OTHER_LIGHTS)
@@ -229,9 +237,12 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, so_far,
                                    emitted, direct, s.primitive, s.material);)
         if (!goes_on) break;
+        const float chance = depth > 0 ? chance_to_go_on(&f, throughput) : 1.0f;
+        if (!(choice.y < chance)) break;
+        throughput /= chance;
 
         const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_DIRECTION));
-        const float3 wi = sample_bsdf(&f, s.normal, wo, choice.y, u);
+        const float3 wi = sample_bsdf(&f, s.normal, wo, choice.y / chance, u);
         if (!is_above(&s, wi)) break;
         const float3 value = eval_bsdf(&f, s.normal, wo, wi, &pdf_direction);
         if (!(pdf_direction > 0.0f)) break;
