@@ -11,6 +11,7 @@
 #include "host/device/program.hpp"
 #include "planes.hpp"
 #include "wedge/shared/filter.h"
+#include "wedge/shared/frame.h"
 #include "wedge/shared/scene.h"
 
 namespace wedge::test {
@@ -157,36 +158,72 @@ std::vector<double> fit(const Row& row, int signal) {
     return fitted;
 }
 
-Planes run_filter_x(device::Device& device, Film& film, float scale) {
-    const device::ProgramRequest request{"kernels/filter.cl",
-                                         {"WEDGE_SHADOW_LIGHTS=1", "WEDGE_FILTER_HEMISPHERE=1"}};
-    const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
-    cl::Kernel kernel = programs[0].kernel("filter_x");
-    const int width = film.means.width, height = film.means.height;
-    shared::FilterSettings settings{};
-    settings.max_radius_px = kMaxRadius_px;
-    shared::Light light{};
-    light.normal = {0, 1, 0, 0};
-    const auto upload = [&](const Planes& planes) {
-        return device.upload_bytes(planes.values.data(), planes.values.size() * sizeof(float),
-                                   "planes", CL_MEM_READ_WRITE);
-    };
-    Planes result(width, height, WEDGE_SURFACES * kMeanPlanes);
-    // Kernels do not keep their buffers.
-    const cl::Buffer kept[] = {device.upload_bytes(&settings, sizeof(settings), "settings"),
-                               device.upload_bytes(&light, sizeof(light), "light"),
-                               upload(film.places), upload(film.sigmas), upload(film.means)};
-    const cl::Buffer filtered = upload(result);
+template <typename Items>
+cl::Buffer upload(device::Device& device, const Items& items) {
+    return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), "array",
+                               CL_MEM_READ_WRITE);
+}
+
+/// A filter's kernel and its first arguments, which rows and columns have in common.
+struct FilterKernel {
+    cl::Kernel kernel;
+    std::vector<cl::Buffer> kept;  // kernels do not keep their buffers
     cl_uint index = 0;
-    for (const cl::Buffer& buffer : kept) kernel.setArg(index++, buffer);
-    kernel.setArg(index++, cl_int(width));
-    kernel.setArg(index++, cl_int(height));
-    kernel.setArg(index++, scale);
-    kernel.setArg(index, filtered);
-    device.launch(kernel, result.size() / WEDGE_LANES);
+
+    FilterKernel(device::Device& device, const char* name, const Film& film, float scale) {
+        const device::ProgramRequest request{
+            "kernels/filter.cl", {"WEDGE_SHADOW_LIGHTS=1", "WEDGE_FILTER_HEMISPHERE=1"}};
+        kernel = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR)[0].kernel(
+            name);
+        std::vector<shared::FilterSettings> settings(1);
+        settings[0].max_radius_px = kMaxRadius_px;
+        std::vector<shared::Light> lights(1);
+        lights[0].normal = {0, 1, 0, 0};
+        add(upload(device, settings));
+        add(upload(device, lights));
+        for (const Planes* planes : {&film.places, &film.sigmas, &film.means})
+            add(upload(device, planes->values));
+        kernel.setArg(index++, cl_int(film.means.width));
+        kernel.setArg(index++, cl_int(film.means.height));
+        kernel.setArg(index++, scale);
+    }
+
+    const cl::Buffer& add(cl::Buffer buffer) {
+        kernel.setArg(index++, buffer);
+        kept.push_back(std::move(buffer));
+        return kept.back();
+    }
+};
+
+Planes run_filter_x(device::Device& device, Film& film, float scale) {
+    FilterKernel filter(device, "filter_x", film, scale);
+    Planes result(film.means.width, film.means.height, WEDGE_SURFACES * kMeanPlanes);
+    const cl::Buffer filtered = filter.add(upload(device, result.values));
+    device.launch(filter.kernel, result.size() / WEDGE_LANES);
     device.finish();
     device.download(filtered, result.values.data(), result.values.size() * sizeof(float));
     return result;
+}
+
+/// Of white surfaces: direct and indirect light of each pixel.
+std::vector<shared::HalfLight> run_filter_y(device::Device& device, const Film& film, float scale) {
+    FilterKernel filter(device, "filter_y", film, scale);
+    const std::size_t pixels = std::size_t(film.means.width * film.means.height);
+    std::vector<shared::FilmPixel> seen(pixels);
+    for (auto& pixel : seen) pixel.normal.w = 1;
+    std::vector<shared::SurfaceSum> surfaces(pixels * WEDGE_SURFACES);
+    for (auto& surface : surfaces) surface.diffuse = {1, 1, 1, 0};
+    filter.add(upload(device, seen));
+    filter.add(upload(device, surfaces));
+    filter.add(upload(device, std::vector<cl_uint>(pixels + 1)));
+    filter.add(upload(device, std::vector<shared::float4>(surfaces.size(), {1, 1, 1, 0})));
+    std::vector<shared::HalfLight> light(2 * pixels);
+    const cl::Buffer filtered = filter.add(upload(device, light));
+    filter.kernel.setArg(filter.index, cl_int(0));
+    device.launch(filter.kernel, film.means.size() / WEDGE_LANES);
+    device.finish();
+    device.download(filtered, light.data(), light.size() * sizeof(light[0]));
+    return light;
 }
 
 TEST_CASE("filters_along_rows_are_the_lines_that_they_should_be") {
@@ -217,28 +254,34 @@ TEST_CASE("filters_along_rows_are_the_lines_that_they_should_be") {
     }
 }
 
-/// One row of flat ground, filtered over four pixels, whose light in the two halves is
-/// `level` + `first`, `second` times x.
-Film sloping_row(float level, float first, float second) {
-    Film film(21, 1);
-    for (int x = 0; x < 21; ++x) {
+/// One row or column of flat ground, filtered over four pixels, whose light in the two halves is
+/// `level` + `first`, `second` times the place in it.
+Film sloping_line(bool is_column, float level, float first, float second) {
+    constexpr int kLength = 21;
+    Film film(is_column ? 1 : kLength, is_column ? kLength : 1);
+    for (int i = 0; i < kLength; ++i) {
+        const int x = is_column ? 0 : i, y = is_column ? i : 0;
         for (int k = 0; k < WEDGE_SURFACES; ++k)
-            film.places.at(k * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, x, 0) = 0;
+            film.places.at(k * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, x, y) = 0;
         const int place[] = {WEDGE_PLACE_X,  WEDGE_PLACE_Y,  WEDGE_PLACE_Z, WEDGE_PLACE_SIZE,
                              WEDGE_PLACE_NX, WEDGE_PLACE_NY, WEDGE_PLACE_NZ};
-        const float at[] = {0.1f * float(x), 0, 0, 0.1f, 0, 1, 0};
-        for (int i = 0; i < 7; ++i) film.places.at(place[i], x, 0) = at[i];
-        for (int s = 0; s < kSignals; ++s) film.sigmas.at(s, x, 0) = 0.4f;
+        const float at[] = {0.1f * float(x), 0, 0.1f * float(y), 0.1f, 0, 1, 0};
+        for (int j = 0; j < 7; ++j) film.places.at(place[j], x, y) = at[j];
+        for (int s = 0; s < kSignals; ++s) film.sigmas.at(s, x, y) = 0.4f;
         for (int c = 0; c < kMeanPlanes; ++c) {
             const bool is_first = c < WEDGE_LIGHT_PLANES
                                       ? c < WEDGE_LIGHT_PLANES / 2
                                       : c - WEDGE_LIGHT_PLANES < WEDGE_HEMISPHERE_PLANES / 2;
-            film.means.at(c, x, 0) = level + (is_first ? first : second) * float(x);
+            film.means.at(c, x, y) = level + (is_first ? first : second) * float(i);
         }
         for (int c : {1, 3, WEDGE_LIGHT_PLANES + 3, WEDGE_LIGHT_PLANES + 7})
-            film.means.at(c, x, 0) = 1;
+            film.means.at(c, x, y) = 1;
     }
     return film;
+}
+
+Film sloping_row(float level, float first, float second) {
+    return sloping_line(false, level, first, second);
 }
 
 TEST_CASE("light_that_rises_evenly_is_not_changed_where_a_surface_ends") {
@@ -253,6 +296,29 @@ TEST_CASE("light_that_rises_evenly_is_not_changed_where_a_surface_ends") {
             CHECK(found.at(c, x, 0) ==
                   doctest::Approx(film.means.at(c, x, 0)).epsilon(0.02).scale(1e-9));
         }
+}
+
+TEST_CASE("columns_are_filtered_as_rows_are") {
+    device::Device device;
+    // An even slope, and halves that agree on half of one.
+    for (float second : {0.03f, 0.01f}) {
+        Film row = sloping_line(false, 0.2f, 0.03f, second);
+        Planes truth = run_filter_x(device, row, 1.0f);
+        const Film column = sloping_line(true, 0.2f, 0.03f, second);
+        const std::vector<shared::HalfLight> found = run_filter_y(device, column, 1.0f);
+        for (int i = 0; i < row.means.width; ++i) {
+            CAPTURE(i);
+            const shared::HalfLight &direct = found[std::size_t(2 * i)],
+                                    &indirect = found[std::size_t(2 * i + 1)];
+            const float pairs[][2] = {
+                {direct.halves[0].x, truth.at(0, i, 0)},
+                {direct.halves[1].z, truth.at(2, i, 0)},
+                {indirect.halves[0].y, truth.at(WEDGE_LIGHT_PLANES + 1, i, 0)},
+                {indirect.halves[1].z, truth.at(WEDGE_LIGHT_PLANES + 6, i, 0)}};
+            for (const auto& [is, should_be] : pairs)
+                CHECK(is == doctest::Approx(should_be).epsilon(1e-4).scale(1e-9));
+        }
+    }
 }
 
 TEST_CASE("slopes_that_the_halves_do_not_agree_on_are_none") {
@@ -301,13 +367,9 @@ TEST_CASE("a_half_without_samples_has_no_say") {
     for (int signal = 0; signal < kSignals; ++signal)
         sums[std::size_t(2 * signal)] = {0.1f, 0.2f, 0.3f, 1};
     const std::vector<cl_uint> more(2);
-    const auto upload = [&](const auto& items) {
-        return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), "array",
-                                   CL_MEM_READ_WRITE);
-    };
-    const cl::Buffer kept[] = {device.upload_bytes(&unfiltered, sizeof(unfiltered), "unfiltered"),
-                               upload(places.values), upload(sums), upload(more),
-                               upload(means.values)};
+    const cl::Buffer kept[] = {upload(device, std::vector{unfiltered}),
+                               upload(device, places.values), upload(device, sums),
+                               upload(device, more), upload(device, means.values)};
     cl_uint index = 0;
     for (const cl::Buffer& buffer : kept) kernel.setArg(index++, buffer);
     kernel.setArg(index++, cl_int(1));
