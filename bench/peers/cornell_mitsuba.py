@@ -6,7 +6,7 @@
     wedge compare wedge.exr mitsuba.exr
 
 The scene is that of scenes/cornell-original.json. Mitsuba counts path vertices where Wedge counts
-indirect bounces, so its depth is two more; Russian roulette is off on both sides.
+indirect bounces, so its depth is two more; it has no Russian roulette here.
 """
 
 import os

@@ -5,7 +5,7 @@ to do).
 
 Lambert surfaces with textures, meshes and rectangles that shine on their front, points, a sky of one colour.
 Everything that makes Cycles faster at the price of bias is off, and so is what it does for pictures: denoiser,
-clamping, adaptive sampling, light threshold, filters of gloss, Russian roulette, shadow terminator. docs/peers.md
+clamping, adaptive sampling, light threshold, filters of gloss, shadow terminator. docs/peers.md
 lists all conventions.
 """
 
@@ -148,7 +148,6 @@ def set_integrator(scene, exported):
     c.sampling_pattern = "TABULATED_SOBOL"
     bounces = exported["bounces"]
     c.max_bounces = c.diffuse_bounces = c.glossy_bounces = c.transmission_bounces = bounces
-    c.min_light_bounces = bounces + 1  # no Russian roulette
     c.use_animated_seed = False
 
 

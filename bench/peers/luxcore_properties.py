@@ -93,7 +93,7 @@ def scene_properties(exported, folder):
 
 
 def render_properties(exported):
-    """LuxCore counts the edges of a path, as Mitsuba does; no Russian roulette, clamping, filter or tone map."""
+    """LuxCore counts the edges of a path, as Mitsuba does; no clamping, filter or tone map."""
     depth = exported["bounces"] + 2
     return {
         "renderengine.type": "PATHCPU",
@@ -101,7 +101,6 @@ def render_properties(exported):
         "path.pathdepth.diffuse": depth,
         "path.pathdepth.glossy": depth,
         "path.pathdepth.specular": depth,
-        "path.russianroulette.depth": depth + 1,
         "path.clamping.variance.maxvalue": 0.0,
         "path.forceblackbackground.enable": False,
         "lightstrategy.type": "LOG_POWER",

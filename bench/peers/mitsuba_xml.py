@@ -143,15 +143,14 @@ def add_sensor(scene, exported):
 
 
 def to_xml(exported):
-    """The document. Mitsuba counts the edges of a path: two for direct light, one more each bounce; there is no
-    Russian roulette before that depth, as in Wedge."""
+    """The document. Mitsuba counts the edges of a path: two for direct light, one more each bounce. Russian roulette
+    is as Mitsuba has it by default: each renderer ends paths as it finds best."""
     scene = xml.Element("scene", version="3.0.0")
     add(scene, "default", name="spp", value=64)
     add(scene, "default", name="sampler", value="independent")
     depth = exported["bounces"] + 2
     integrator = add(scene, "integrator", type="path")
     add(integrator, "integer", name="max_depth", value=depth)
-    add(integrator, "integer", name="rr_depth", value=depth + 1)
     add_sensor(scene, exported)
     add_meshes(scene, exported)
     add_rects(scene, exported)
