@@ -1,0 +1,113 @@
+// Light of lamps that nothing hides.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "filter_scenes.hpp"
+
+namespace wedge::test {
+namespace {
+
+using glm::dvec3;
+
+constexpr float kAlbedo = 0.7f;
+
+/// Nothing but ground, seen from aslant, and a lamp above it.
+Scene make_ground(LightProfile profile, float edge, float height) {
+    Scene scene = make_scene({make_quad({-50, 0, -50}, {0, 0, 100}, {100, 0, 0}, 0)},
+                             {lambert(kAlbedo), lambert(0.1f)});
+    scene.film = {16, 12};
+    scene.camera = {.position = {0, 2.5f, 3}, .target = {0, 0, 0}, .vertical_fov_rad = 0.7f};
+    scene.rect_lights = {{.center = {0.6f, height, 0.2f},
+                          .edge_u = {edge, 0, 0},
+                          .edge_v = {0, 0.1f, edge},
+                          .radiance = {8, 6, 4},
+                          .profile = profile,
+                          .sigma = 0.3f * edge}};
+    return scene;
+}
+
+/// Nodes and weights on [-1/2, 1/2] (Gauss and Legendre).
+struct Node {
+    double at, weight;
+};
+constexpr double kAt[] = {0.0917173212, 0.2627662050, 0.3983332387, 0.4801449282};
+constexpr double kWeight[] = {0.1813418917, 0.1568533229, 0.1111905172, 0.0506142681};
+
+std::vector<Node> nodes() {
+    std::vector<Node> all;
+    for (std::size_t i = 0; i < std::size(kAt); ++i) {
+        all.push_back({kAt[i], kWeight[i]});
+        all.push_back({-kAt[i], kWeight[i]});
+    }
+    return all;
+}
+
+/// Irradiance at a point of the ground for a radiance of 1.
+double irradiance(const RectLight& lamp, const dvec3& point) {
+    const dvec3 u(lamp.edge_u), v(lamp.edge_v), cross = glm::cross(u, v);
+    const double sigma2 = double(lamp.sigma) * double(lamp.sigma);
+    double sum = 0;
+    for (const Node& a : nodes())
+        for (const Node& b : nodes()) {
+            const dvec3 place = a.at * u + b.at * v, d = dvec3(lamp.center) + place - point;
+            const double profile = lamp.profile == LightProfile::gaussian
+                                       ? std::exp(-glm::dot(place, place) / (2 * sigma2))
+                                       : 1.0;
+            sum += a.weight * b.weight * profile * d.y * -glm::dot(d, cross) /
+                   std::pow(glm::dot(d, d), 2);
+        }
+    return sum;
+}
+
+/// Red, the mean over a pixel.
+double pixel_radiance(const Scene& scene, int x, int y) {
+    const Camera& camera = scene.camera;
+    const dvec3 eye(camera.position), forward = glm::normalize(dvec3(camera.target) - eye);
+    const dvec3 right = glm::normalize(glm::cross(forward, dvec3(0, 1, 0)));
+    const dvec3 down = glm::cross(forward, right);
+    const double size = 2 * std::tan(0.5 * double(camera.vertical_fov_rad)) / scene.film.height;
+    const RectLight& lamp = scene.rect_lights[0];
+    double sum = 0;
+    for (const Node& a : nodes())
+        for (const Node& b : nodes()) {
+            const double px = x + 0.5 + a.at - 0.5 * scene.film.width;
+            const double py = y + 0.5 + b.at - 0.5 * scene.film.height;
+            const dvec3 ray = forward + size * (px * right + py * down);
+            sum += a.weight * b.weight * irradiance(lamp, eye - ray * (eye.y / ray.y));
+        }
+    return double(kAlbedo) / double(kPi) * double(lamp.radiance.x) * sum;
+}
+
+/// Errors of pixels' red, as shares of it.
+std::vector<double> errors(const Scene& scene, const RenderOptions& options) {
+    auto values = channel_values(render(scene, options).image, "direct.R");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const int width = scene.film.width;
+        values[i] = values[i] / pixel_radiance(scene, int(i) % width, int(i) / width) - 1;
+    }
+    return values;
+}
+
+TEST_CASE("unshadowed_light_of_a_large_gaussian_lamp_is_sampled_well") {
+    // What shadows multiply must not be worse than radiance as it was sampled.
+    const Scene scene = make_ground(LightProfile::gaussian, 3, 2);
+    double multiplied = 0, sampled = 0;
+    for (uint32_t seed = 0; seed < 4; ++seed) {
+        RenderOptions options = filtered(1, seed);
+        options.adaptive = false;
+        options.samples_per_pixel = 64;
+        options.filter = FilterMode::plain;
+        for (double e : errors(scene, options)) multiplied += e * e;
+        options.filter = FilterMode::none;
+        for (double e : errors(scene, options)) sampled += e * e;
+    }
+    CAPTURE(std::sqrt(multiplied / (4 * 16 * 12)));
+    CAPTURE(std::sqrt(sampled / (4 * 16 * 12)));
+    CHECK(multiplied < sampled);
+}
+
+}  // namespace
+}  // namespace wedge::test
