@@ -1,4 +1,5 @@
 /* Axis-aligned filtering, between the sampling passes (path.cl) and the image:
+     filter_flat       unshadowed light of flat pixels, free of noise
      filter_means      sums over samples to what is filtered
      filter_x, filter_y   lines fitted along rows, then along columns, by Gaussian weights; after the latter, filtered
                        signals times what was not filtered, texture and unshadowed light
@@ -7,6 +8,7 @@
    Arrays: include/wedge/shared/filter.h; places, sigmas and means in planes. Filters work on eight pixels side by side
    (lib/planes.clh). */
 #include "lib/filter_weight.clh"
+#include "lib/flat_light.clh"
 #include "lib/line_fit.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
@@ -19,6 +21,21 @@ inline bool has_surface(const Planes* planes, __global const float* places, int 
 inline bool any_surface(const Planes* planes, __global const float* places, int surface, ulong at) {
     const float8 size = load8(planes, places, surface * WEDGE_PLACE_PLANES + WEDGE_PLACE_SIZE, at);
     return lane_bits8(size > 0.0f);
+}
+
+__kernel void filter_flat(__global const FrameParams* restrict params, __global const Light* restrict lights,
+                          __global const FilmPixel* restrict film, __global const SurfaceSum* restrict surface_sums,
+                          __global const float4* restrict reflected, __global float* restrict corrections, int width,
+                          int height) {
+    const int pixel = (int)get_global_id(0);
+    if (pixel >= width * height) return;
+    const CameraRays camera = params->camera;
+    const float2 corner_px = (float2)(params->crop_x + pixel % width, params->crop_y + pixel / width);
+    for (int i = 0; i < WEDGE_SHADOW_LIGHTS; ++i) {
+        const int at = pixel * WEDGE_SHADOW_LIGHTS + i;
+        corrections[at] = flat_correction(lights + i, &camera, corner_px, film + pixel, surface_sums + pixel,
+                                          reflected[at]);
+    }
 }
 
 __kernel void filter_means(__global const SampledLight* restrict unfiltered,
@@ -137,10 +154,15 @@ typedef struct {
     __global const SurfaceSum* surfaces;
     __global const uint* more;
     __global const float4* reflected;
+    __global const float* corrections; /* of `reflected` of first surfaces */
 } PixelSums;
 
-inline float3 colour_of(const PixelSums* sums, int entry, int signal) {
-    if (is_light(signal)) return sums->reflected[(uint)entry * WEDGE_SHADOW_LIGHTS + (uint)signal].xyz;
+inline float3 colour_of(const PixelSums* sums, int pixel, int entry, int signal) {
+    if (is_light(signal)) {
+        const uint at = (uint)entry * WEDGE_SHADOW_LIGHTS + (uint)signal;
+        const bool is_first = entry == pixel;
+        return sums->reflected[at].xyz * (is_first ? sums->corrections[at] : 1.0f);
+    }
     return signal == WEDGE_SIGNAL_DIFFUSE ? sums->surfaces[entry].diffuse.xyz : sums->surfaces[entry].specular.xyz;
 }
 
@@ -158,7 +180,7 @@ inline void add_light(const Planes* planes, __global const float* places, const 
         const int pixel = first + lane;
         const int entry = surface_entry(sums->more, planes->width * planes->height, pixel, surface);
         if (entry < 0) continue;
-        const float3 colour = colour_of(sums, entry, signal) / fmax(sums->film[pixel].normal.w, 1.0f);
+        const float3 colour = colour_of(sums, pixel, entry, signal) / fmax(sums->film[pixel].normal.w, 1.0f);
         float4* halves =
             light[lane * WEDGE_PARTS + (is_light(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT)].halves;
         halves[0].xyz += colour * (float3)(shares[0][lane], shares[1][lane], shares[2][lane]);
@@ -219,13 +241,14 @@ inline void add_sampled(const Planes* planes, const Group* group, const PixelSum
 __kernel void filter_none(__global const float* restrict places, __global const FilmPixel* restrict film,
                           __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
                           __global const float4* restrict reflected,
+                          __global const float* restrict corrections,
                           __global const float4* restrict signal_sums,
                           __global const float* restrict means, __global HalfLight* restrict light,
                           int width, int height) {
     const Planes planes = make_planes(width, height);
     const Group group = group_in_rows(&planes, (int)get_global_id(0));
     if (!is_on_film(&planes, &group)) return;
-    const PixelSums sums = {film, surface_sums, more, reflected};
+    const PixelSums sums = {film, surface_sums, more, reflected, corrections};
     HalfLight result[WEDGE_LANES * WEDGE_PARTS];
     for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
@@ -263,13 +286,13 @@ __kernel void filter_x(WEDGE_FILTER_PARAMS, __global float* restrict filtered) {
 /* `signals`: what filter_x has made. `index`: place of `scale` in WEDGE_SCALE_WIDTHS. */
 __kernel void filter_y(WEDGE_FILTER_PARAMS, __global const FilmPixel* restrict film,
                        __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
-                       __global const float4* restrict reflected,
+                       __global const float4* restrict reflected, __global const float* restrict corrections,
                        __global HalfLight* restrict light, int index) {
     const Filter filter = WEDGE_FILTER_ARGS;
     const Group group = group_in_columns(&filter.planes, (int)get_global_id(0));
     if (!is_on_film(&filter.planes, &group)) return;
     const Line line = {group.y, height - 1 - group.y, 0, filter.planes.pitch};
-    const PixelSums sums = {film, surface_sums, more, reflected};
+    const PixelSums sums = {film, surface_sums, more, reflected, corrections};
     HalfLight result[WEDGE_LANES * WEDGE_PARTS];
     for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {

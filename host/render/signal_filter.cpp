@@ -22,7 +22,7 @@ constexpr float kCameraRays = 80;     // of a pixel with an edge as high as the 
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
-constexpr cl_uint kIndexArg = 13;       // of filter_y
+constexpr cl_uint kIndexArg = 14;       // of filter_y
 constexpr cl_uint kBrightnessArg = 14;  // of filter_bandwidth
 
 /// The longer paths are, the cheaper beside them (kernels/bandwidth.cl).
@@ -158,7 +158,8 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
                            uint64_t(plan_parts(plan))) *
              sizeof(float)},
         {"filter widths", entries * sizeof(float)},
-        {"unshadowed light", surfaces * uint64_t(plan.shadow_lights) * sizeof(shared::float4)},
+        {"unshadowed light", uint64_t(plan.shadow_lights) *
+                                 (surfaces * sizeof(shared::float4) + pixels * sizeof(float))},
         {"light before and after filters",
          pixels * (sizeof(shared::SampledLight) +
                    uint64_t(plan_parts(plan)) * WEDGE_SCALES * sizeof(shared::HalfLight))},
@@ -210,6 +211,8 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     sums_ = zeros(2 * entries, sizeof(shared::float4), "signals");
     distances_ = zeros(entries, sizeof(shared::DistanceRange), "distances");
     reflected_ = zeros(surfaces * lights_, sizeof(shared::float4), "unshadowed light");
+    corrections_ =
+        device_.allocate(pixels * lights_ * sizeof(float), "unshadowed light of flat pixels");
     unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     allocate_planes();
@@ -253,6 +256,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     brightness_kernel_ = bandwidth.kernel("filter_brightness");
     bandwidth_kernel_ = bandwidth.kernel("filter_bandwidth");
     edge_noise_ = bandwidth.kernel("filter_edge_noise");
+    flat_ = filters.kernel("filter_flat");
     means_kernel_ = filters.kernel("filter_means");
     filter_x_ = filters.kernel("filter_x");
     filter_y_ = filters.kernel("filter_y");
@@ -282,13 +286,15 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     near_by_, ends_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height,
                     0.0f);
     set_kernel_args(edge_noise_, film_, surface_sums_, more_, ends_, guarded_, width, height);
+    set_kernel_args(flat_, params_, light_list_, film_, surface_sums_, reflected_, corrections_,
+                    width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, more_, means_, width, height);
-    set_kernel_args(filter_none_, places_, film_, surface_sums_, more_, reflected_, sums_, means_,
-                    light_, width, height);
+    set_kernel_args(filter_none_, places_, film_, surface_sums_, more_, reflected_, corrections_,
+                    sums_, means_, light_, width, height);
     set_kernel_args(filter_x_, settings_, light_list_, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
     set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,
-                    1.0f, film_, surface_sums_, more_, reflected_, light_, cl_int(0));
+                    1.0f, film_, surface_sums_, more_, reflected_, corrections_, light_, cl_int(0));
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, parts);
     set_kernel_args(guard_smooth_, errors_, smoothed_, width, height);
     set_kernel_args(choose_, settings_, unfiltered_, light_, smoothed_, guarded_, width, height);
@@ -332,8 +338,8 @@ double SignalFilter::filter() {
     constexpr float widths[] = WEDGE_SCALE_WIDTHS;
     const uint64_t pixels = pixel_count(), groups = group_count();
     // Where the samples met the scene is better known now than after the probe.
-    double seconds = run(std::array{Launch{surfaces_kernel_, pixels}, Launch{means_kernel_, pixels},
-                                    Launch{filter_none_, groups}});
+    double seconds = run(std::array{Launch{surfaces_kernel_, pixels}, Launch{flat_, pixels},
+                                    Launch{means_kernel_, pixels}, Launch{filter_none_, groups}});
     for (int scale = 1; scale < WEDGE_SCALES; ++scale) {
         filter_x_.setArg(kScaleArg, widths[scale]);
         filter_y_.setArg(kScaleArg, widths[scale]);

@@ -157,6 +157,28 @@ TEST_CASE("lights_are_chosen_by_power") {
     CHECK(chi_square_p_value(observed, expected) > 1e-3);
 }
 
+TEST_CASE("three_nodes_have_the_moments_of_a_profile") {
+    for (double sigma : {0.0, 0.02, 0.2, 0.5, 3.0, 99.0, 1e5}) {
+        rendering::LightList list;
+        const auto profile = sigma > 0 ? LightProfile::gaussian : LightProfile::uniform;
+        RectLight rect = test_rect(profile, float(sigma));
+        rect.edge_u = {1, 0, 0};  // sigma is a share of it
+        list.add_rect(rect);
+        const shared::float4 nodes = list.take()[0].nodes;
+        double mass = 0, second = 0, fourth = 0;
+        constexpr int kParts = 100000;
+        for (int i = 0; i < kParts; ++i) {
+            const double x = (i + 0.5) / kParts - 0.5;
+            const double p = sigma > 0 ? std::exp(-x * x / (2 * sigma * sigma)) : 1;
+            mass += p, second += p * x * x, fourth += p * std::pow(x, 4);
+        }
+        CAPTURE(sigma);
+        const double x2 = double(nodes.x) * double(nodes.x), outer = 2 * double(nodes.z);
+        CHECK(outer * x2 == doctest::Approx(second / mass).epsilon(2e-5).scale(1e-9));
+        CHECK(outer * x2 * x2 == doctest::Approx(fourth / mass).epsilon(2e-5).scale(1e-9));
+    }
+}
+
 TEST_CASE("lights_without_power_are_left_out") {
     rendering::LightList list;
     CHECK(list.add_point({.intensity = Vec3(0)}) == -1);

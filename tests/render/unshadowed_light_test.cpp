@@ -1,4 +1,5 @@
-// Light of lamps that nothing hides.
+// Light of lamps that nothing hides: where ground is flat integrated over pixels, elsewhere sampled
+// well.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -91,8 +92,36 @@ std::vector<double> errors(const Scene& scene, const RenderOptions& options) {
     return values;
 }
 
+double largest_error(const Scene& scene, const RenderOptions& options) {
+    double largest = 0;
+    for (double e : errors(scene, options)) largest = std::max(largest, std::abs(e));
+    return largest;
+}
+
+/// Root mean square difference from path tracing as a share of the mean. No guard, which knows
+/// better.
+double error_beside_paths(const Scene& scene, int samples) {
+    RenderOptions options = filtered(1);
+    options.filter = FilterMode::plain;
+    options.adaptive = false;
+    options.samples_per_pixel = samples;
+    const Image truth = render(scene, quick(1 << 14, 0, Sampler::lattice, 9)).image;
+    const Image image = render(scene, options).image;
+    return channel_rmse(image, truth, "direct.G") / channel_mean(truth, "direct.G");
+}
+
+TEST_CASE("light_on_flat_ground_has_no_noise") {
+    // Places in eight parts of a pixel alone leave some thousandths.
+    for (LightProfile profile : {LightProfile::uniform, LightProfile::gaussian}) {
+        CAPTURE(profile == LightProfile::gaussian);
+        CHECK(largest_error(make_ground(profile, 0.4f, 3), filtered(0.25f)) < 1e-4);
+    }
+    CHECK(largest_error(make_ground(LightProfile::uniform, 3, 2), filtered(0.25f)) < 1e-4);
+}
+
 TEST_CASE("unshadowed_light_of_a_large_gaussian_lamp_is_sampled_well") {
-    // What shadows multiply must not be worse than radiance as it was sampled.
+    // For nodes it is too large. What shadows multiply must not be worse than radiance as it was
+    // sampled.
     const Scene scene = make_ground(LightProfile::gaussian, 3, 2);
     double multiplied = 0, sampled = 0;
     for (uint32_t seed = 0; seed < 4; ++seed) {
@@ -107,6 +136,67 @@ TEST_CASE("unshadowed_light_of_a_large_gaussian_lamp_is_sampled_well") {
     CAPTURE(std::sqrt(multiplied / (4 * 16 * 12)));
     CAPTURE(std::sqrt(sampled / (4 * 16 * 12)));
     CHECK(multiplied < sampled);
+}
+
+TEST_CASE("a_crop_of_flat_ground_has_the_same_light") {
+    const Scene scene = make_ground(LightProfile::gaussian, 0.4f, 3);
+    RenderOptions options = filtered(0.25f);
+    const auto whole = channel_values(render(scene, options).image, "direct.G");
+    options.crop = Rect{5, 4, 7, 6};
+    const auto part = channel_values(render(scene, options).image, "direct.G");
+    for (int y = 4; y < 10; ++y)
+        for (int x = 5; x < 12; ++x) {
+            const auto i = std::size_t(y * scene.film.width + x);
+            CHECK(part[i] == doctest::Approx(whole[i]).epsilon(1e-5).scale(1e-9));
+        }
+}
+
+// Large pixels: light changes by much within one, so that only what is flat and of one colour may
+// be taken for it.
+Scene make_near_ground() {
+    Scene scene = make_ground(LightProfile::uniform, 0.3f, 2);
+    scene.film = {8, 6};
+    return scene;
+}
+
+TEST_CASE("colours_in_a_pixel_are_not_taken_for_one") {
+    Scene scene = make_near_ground();
+    scene.meshes = {make_quad({-50, 0, -50}, {0, 0, 100}, {50.1f, 0, 0}, 0),
+                    make_quad({0.1f, 0, -50}, {0, 0, 100}, {50, 0, 0}, 1)};
+    scene.instances = {{.mesh = 0}, {.mesh = 1}};
+    CHECK(error_beside_paths(scene, 1024) < 2e-3);
+}
+
+TEST_CASE("pixels_too_large_for_four_nodes_are_sampled") {
+    Scene scene = make_near_ground();
+    scene.film = {4, 3};
+    scene.rect_lights[0].center.y = 0.8f;
+    CHECK(error_beside_paths(scene, 1024) < 2e-3);
+}
+
+TEST_CASE("slopes_in_a_pixel_are_not_taken_for_one") {
+    // A roof of 24 degrees: one surface as far as a pixel is concerned.
+    Scene scene = make_near_ground();
+    const float fall = -50 * 0.2126f;
+    scene.meshes = {make_quad({-49.9f, fall, -50}, {0, 0, 100}, {50, -fall, 0}, 0),
+                    make_quad({0.1f, 0, -50}, {0, 0, 100}, {50, fall, 0}, 0)};
+    scene.instances = {{.mesh = 0}, {.mesh = 1}};
+    CHECK(error_beside_paths(scene, 1024) < 2e-3);
+}
+
+TEST_CASE("a_lamp_that_dips_below_the_horizon_is_cut_off_there") {
+    // Below that of the ground, below that of a normal that is bent away from the lamp, and below
+    // the ground that its normal is bent towards.
+    for (const Vec3 normal : {Vec3(0, 1, 0), Vec3(0.5f, 1, 0), Vec3(-0.5f, 1, 0)}) {
+        Scene scene = make_ground(LightProfile::uniform, 1, 3);
+        scene.meshes[0].normals.assign(4, glm::normalize(normal));
+        scene.rect_lights[0] = {.center = {-4, normal.x > 0 ? 1.5f : 0.2f, 0},
+                                .edge_u = {0, 1, 0},
+                                .edge_v = {0, 0, 1},
+                                .radiance = Vec3(8)};
+        CAPTURE(normal.x);
+        CHECK(error_beside_paths(scene, 256) < 5e-3);
+    }
 }
 
 }  // namespace

@@ -69,8 +69,11 @@ typedef struct Light {
     int unused;
     float4 profile; /* of a rectangle. x, y: share of a Gaussian that lies between the edges, along
                        u and v; z: mean emission over the rectangle, as a share of its centre's */
+    float4 nodes;   /* of a rectangle, to integrate by its profile with three points along an edge:
+                       the middle and, x: along u, y: along v, so far to both sides as a share of the
+                       edge; z, w: weight of each of those two; the middle has the rest of 1 */
 } Light;
-WEDGE_ASSERT_SIZE(Light, 112);
+WEDGE_ASSERT_SIZE(Light, 128);
 
 WEDGE_SHARED_END
 
