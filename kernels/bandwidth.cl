@@ -162,7 +162,11 @@ inline float nearest_power_of_two(float v) {
    n^-1.5 under a low-discrepancy sequence and rises with the square of the contrast C; the square
    of the paths' noise falls with 1 / N, and N, their number, rises with mu. For a given time the sum
    of both is least where a little more time lowers them alike: C^2 n^-2.5 ~ N^-2 over the cost of a
-   path, so that n goes with (mu C)^(2 / 2.5). The cost is in camera_rays_at_edges. */
+   path, so that n goes with (mu C)^(2 / 2.5). The cost is in camera_rays_at_edges.
+
+   Where an edge is too faint for the image to gain by that, it may still be all the error that there is
+   near by. A pixel that has one gets as many camera rays as it would get paths if it needed them. */
+#define WEDGE_LEAST_CAMERA_RAYS 64.0f /* for mu = 1 */
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
 #define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
@@ -171,9 +175,10 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges *
                     pow(settings->mu * contrast / mean_brightness, 0.8f);
+    const float least = WEDGE_LEAST_CAMERA_RAYS * sqrt(settings->mu);
     const float most =
         fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
-    return (uint)nearest_power_of_two(clamp(n, 1.0f, most));
+    return (uint)nearest_power_of_two(clamp(n, fmin(least, most), most));
 }
 
 /* Variance, from one sample to the next, of the radiance that a signal makes of a pixel. */
