@@ -41,8 +41,8 @@ struct Rung {
     };
     std::optional<Split> split;
 
-    /// Share of 16 x 16 blocks with a larger mean squared error than the yardstick would have in
-    /// the same time, and with more than twice that.
+    /// Share of 16 x 16 blocks with more than 1.1 times the RMSE that the yardstick would have in
+    /// the same time, and with more than twice its mean squared error; rounding does not count.
     double blocks_worse = 0, blocks_twice = 0;
 };
 

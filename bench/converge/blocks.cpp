@@ -71,13 +71,14 @@ void measure_blocks(const Reference& reference, const Curve& yardstick, Curve& c
     BlockErrorsOverTime plain;
     for (const Rung& rung : yardstick.rungs)
         plain.add(rung.time_s.median, mean_block_errors(reference, rung));
+    const double rounding = rounding_error(reference);
     for (Rung& rung : curve.rungs) {
         const BlockErrors errors = mean_block_errors(reference, rung);
         std::size_t worse = 0, twice = 0;
         for (std::size_t block = 0; block < errors.size(); ++block) {
-            const double expected = plain.at(block, rung.time_s.median);
-            worse += errors[block] > expected;
-            twice += errors[block] > kClearly * std::max(expected, 0.0);
+            const double expected = std::max(plain.at(block, rung.time_s.median), 0.0);
+            worse += errors[block] > kTenthMore * expected + rounding;
+            twice += errors[block] > kClearly * expected + rounding;
         }
         rung.blocks_worse = double(worse) / double(errors.size());
         rung.blocks_twice = double(twice) / double(errors.size());

@@ -7,6 +7,9 @@
 
 namespace wedge::converge {
 
+/// Times a mean squared error: what counts as worse is a tenth more as RMSE.
+constexpr double kTenthMore = 1.1 * 1.1;
+
 /// Mean squared error by block, row by row; the reference's part is subtracted, so that it may be
 /// slightly negative.
 using BlockErrors = std::vector<double>;

@@ -86,8 +86,8 @@ std::string markdown_tables(const Config& config, const Analysis& analysis) {
                 "with the budget at the head of the column.\n\n",
                 yardstick) +
             summary_table(analysis, "time ratio", &MethodSummary::time_at_equal_error) +
-            "\n## Scenes\n\nMedians over seeds. Blocks worse: share of 16x16 blocks with a larger "
-            "mean squared error than " +
+            "\n## Scenes\n\nMedians over seeds. Blocks worse: share of 16x16 blocks with more "
+            "than 1.1 times the RMSE that " +
             yardstick +
             " has in the same time. ≈: the reference's own error is not five times smaller, "
             "charts and slopes leave it out.\n";

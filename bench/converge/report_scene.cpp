@@ -114,11 +114,10 @@ std::string bias_section(const SceneAnalysis& scene) {
     std::string html =
         "<h3>Bias, variance, and blocks that lose</h3>\n<p class=\"soft\">Split over seeds; bias² "
         "is "
-        "an unbiased estimate, so noise can make it slightly negative. Blocks of 16 x 16 px with a "
-        "larger mean squared error than " +
+        "an unbiased estimate, so noise can make it slightly negative. Blocks of 16 x 16 px with "
+        "more than 1.1 times the RMSE that " +
         std::string(scene.curves[scene.yardstick].method->name) +
-        " has in the same time, and with more than twice that; half is what two equal methods "
-        "would show.</p>\n" +
+        " has in the same time, and with more than twice its mean squared error.</p>\n" +
         table_html(table);
     Table tests{{"unfiltered", "tests", "mean z²", "largest |z|", "p, corrected"}, {}};
     for (const Curve& curve : scene.curves)

@@ -7,8 +7,6 @@
 namespace wedge::stability {
 namespace {
 
-constexpr double kTenth = 1.1 * 1.1;  // a tenth more, as RMSE
-
 struct MarginAndErrors {
     std::vector<double> margins;
     double error = 0, expected = 0;  ///< sums over seeds
@@ -34,14 +32,15 @@ Harm BlockYardstick::harm(const converge::Rung& rung) const {
         blocks.resize(errors.size());
         for (std::size_t i = 0; i < errors.size(); ++i) {
             const double expected = by_seed_[seed].at(i, rung.time_s.median);
-            blocks[i].margins.push_back(errors[i] - kTenth * expected - rounding_);
+            blocks[i].margins.push_back(errors[i] - converge::kTenthMore * expected - rounding_);
             blocks[i].error += errors[i];
             blocks[i].expected += expected;
         }
     }
     Harm harm;
     for (const MarginAndErrors& block : blocks) {
-        const double most = kTenth * std::max(block.expected, 0.0) + double(seeds) * rounding_;
+        const double most =
+            converge::kTenthMore * std::max(block.expected, 0.0) + double(seeds) * rounding_;
         if (!(block.error > most)) continue;
         harm.seen += 1;
         harm.shown += positive_beyond_luck(block.margins);

@@ -1,6 +1,9 @@
 // Splits, tests and blocks on images whose bias and variance are known.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
+#include "bench/converge/blocks.hpp"
 #include "tests/bench/approx.hpp"
 #include "tests/bench/synthetic.hpp"
 #include "wedge/error.hpp"
@@ -106,6 +109,31 @@ TEST_CASE("blocks_lose_where_the_error_is_above_the_yardstick_at_equal_time") {
     curve.rungs = {late.rung};
     measure_blocks(reference, yardstick, curve);
     CHECK(curve.rungs[0].blocks_worse == test::close_to(1, 1e-6));
+}
+
+TEST_CASE("a_tenth_and_rounding_do_not_make_a_block_worse") {
+    Synthetic synthetic(kSide, kSide, 6);
+    const Reference reference = synthetic.reference(0);
+    const auto worse = [&](float plain, float other) {
+        const auto off_by = [&](float difference) {
+            Image image = synthetic.image(0);
+            for (std::size_t i = 0; i < image.pixels.size(); i += 6)
+                for (std::size_t c = 0; c < 3; ++c) image.pixels[i + c] += difference;
+            return image;
+        };
+        SyntheticRung yardstick_rung({off_by(plain)}, reference, 1);
+        SyntheticRung rung({off_by(other)}, reference, 1);
+        Curve yardstick, curve;
+        yardstick.rungs = {yardstick_rung.rung};
+        curve.rungs = {rung.rung};
+        measure_blocks(reference, yardstick, curve);
+        return curve.rungs[0].blocks_worse;
+    };
+    const float mean = std::sqrt(float(rounding_error(reference))) * 1e4f;
+    CHECK(worse(0.1f * mean, 0.105f * mean) == 0);
+    CHECK(worse(0.1f * mean, 0.115f * mean) == 1);
+    CHECK(worse(1e-6f * mean, 9e-5f * mean) == 0);
+    CHECK(worse(1e-6f * mean, 3e-4f * mean) == 1);
 }
 
 TEST_CASE("ratios_to_the_yardstick_say_what_was_not_measured") {
