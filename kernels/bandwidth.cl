@@ -93,6 +93,7 @@ inline bool differs(float a, float b) {
 /* What edges make of a pixel's brightness. */
 typedef struct {
     float across; /* largest difference to the next pixels, if there is an edge; else 0 */
+    float beside; /* largest difference to those of them that show more than a surface */
     float inside; /* by colours inside surfaces, twice the standard deviation: what an edge through
                      the middle has */
 } Contrast;
@@ -100,6 +101,21 @@ typedef struct {
 /* True if a pixel shows more than its first surface. */
 inline bool has_more_surfaces(__global const FilmPixel* own, __global const SurfaceSum* first) {
     return first->position.w != own->normal.w;
+}
+
+/* What few samples have missed of something thin, or at a corner of the pixel, the next one may show. */
+inline float contrast_beside(__global const FilmPixel* film, __global const SurfaceSum* sums, int x, int y,
+                             int width, int height) {
+    const int pixel = y * width + x;
+    float contrast = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
+        if (x + i < 0 || x + i >= width || y + j < 0 || y + j >= height) continue;
+        const int other = pixel + j * width + i;
+        if (has_more_surfaces(film + other, sums + other))
+            contrast = fmax(contrast, fabs(brightness(film + pixel) - brightness(film + other)));
+    }
+    return contrast;
 }
 
 /* `is_edge`: the pixel shows more than a surface, or its surface ends beside it. */
@@ -149,6 +165,7 @@ inline Contrast contrast_at(__global const FilmPixel* film, SurfaceSums surfaces
     const bool is_edge = ends_here || has_more_surfaces(film + pixel, surfaces.sums + pixel);
     Contrast c;
     c.across = contrast_across(film, is_edge, x, y, width, height);
+    c.beside = contrast_beside(film, surfaces.sums, x, y, width, height);
     c.inside = contrast_inside(film + pixel, surfaces, width * height, pixel);
     return c;
 }
@@ -165,17 +182,19 @@ inline float nearest_power_of_two(float v) {
    path, so that n goes with (mu C)^(2 / 2.5). The cost is in camera_rays_at_edges.
 
    Where an edge is too faint for the image to gain by that, it may still be all the error that there is
-   near by. A pixel that has one gets as many camera rays as it would get paths if it needed them. */
-#define WEDGE_LEAST_CAMERA_RAYS 64.0f /* for mu = 1 */
+   near by. A pixel that has one gets as many camera rays as it would get paths if it needed them, and one
+   beside it a few more than the probe's, which may have missed it. */
+#define WEDGE_LEAST_AT_EDGES 64.0f     /* for mu = 1 */
+#define WEDGE_LEAST_BESIDE_EDGES 16.0f /* for mu = 1 */
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
 #define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
 inline uint camera_rays(__constant FilterSettings* settings, float contrast,
-                        float mean_brightness) {
+                        float mean_brightness, float least_rays) {
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges *
                     pow(settings->mu * contrast / mean_brightness, 0.8f);
-    const float least = WEDGE_LEAST_CAMERA_RAYS * sqrt(settings->mu);
+    const float least = least_rays * sqrt(settings->mu);
     const float most =
         fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
     return (uint)nearest_power_of_two(clamp(n, fmin(least, most), most));
@@ -283,9 +302,11 @@ __kernel void filter_bandwidth(
     const uint end = max((uint)clamp(power, least, cap), before.paths_before);
     const SurfaceSums surfaces = {surface_sums, more};
     const Contrast contrast = contrast_at(film, surfaces, ends[at] > 0.0f, x, y, width, height);
-    const uint rays = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness);
+    const uint at_edges = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness,
+                                      WEDGE_LEAST_AT_EDGES);
+    const uint beside = camera_rays(settings, contrast.beside, mean_brightness, WEDGE_LEAST_BESIDE_EDGES);
     sample_ends[pixel].paths = end;
-    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
+    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), max(at_edges, beside));
 }
 
 /* A straight edge of contrast C across a pixel leaves an error of mean square 0.11 C^2 n^-1.5 with n

@@ -71,6 +71,24 @@ TEST_CASE("faint_edges_get_camera_rays") {
     CHECK(found_error < 0.7 * 0.7 * plain_error);
 }
 
+// Eight samples of a pixel miss a strip that fills a tenth of it more often than not. Pixels next
+// to it that show it tell.
+TEST_CASE("what_the_probe_missed_is_looked_for_beside_edges") {
+    Scene scene = make_stripes(100);
+    scene.meshes.push_back(make_quad({-0.003f, 0.01f, -1.5f}, {0, 0, 3}, {0.006f, 0.02f, 0}, 0));
+    scene.instances.push_back({.mesh = uint32_t(scene.meshes.size() - 1)});
+    const Image truth = render(scene, quick(8192, 0, Sampler::lattice, 9)).image;
+    double found = 0, plain = 0;
+    for (uint32_t seed = 0; seed < 4; ++seed) {
+        const Image image = render(scene, filtered(1, seed)).image;
+        found += std::pow(channel_rmse(image, truth, "N.X"), 2);
+        const Image sampled = render(scene, quick(16, 0, Sampler::sobol, seed)).image;
+        plain += std::pow(channel_rmse(sampled, truth, "N.X"), 2);
+    }
+    CAPTURE(std::sqrt(found / plain));
+    CHECK(found < 0.48 * 0.48 * plain);
+}
+
 // Beside the noise of paths that of edges falls faster the more rays look for it, so that a larger
 // share of them would be spent in vain: by a power of 4/3 they would be 16 times as many.
 TEST_CASE("camera_rays_grow_more_slowly_than_mu") {
