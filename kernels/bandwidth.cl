@@ -103,36 +103,26 @@ inline bool has_more_surfaces(__global const FilmPixel* own, __global const Surf
     return first->position.w != own->normal.w;
 }
 
-/* What few samples have missed of something thin, or at a corner of the pixel, the next one may show. */
-inline float contrast_beside(__global const FilmPixel* film, __global const SurfaceSum* sums, int x, int y,
-                             int width, int height) {
+/* `across` and `beside`: what few samples have missed of something thin, or at a corner of the pixel, the next one may
+   show. `is_edge`: the pixel shows more than a surface, or its surface ends beside it. */
+inline void compare_with_next(Contrast* c, __global const FilmPixel* film, __global const SurfaceSum* sums, bool is_edge,
+                              int x, int y, int width, int height) {
     const int pixel = y * width + x;
-    float contrast = 0.0f;
-    for (int k = 0; k < 4; ++k) {
-        const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
-        if (x + i < 0 || x + i >= width || y + j < 0 || y + j >= height) continue;
-        const int other = pixel + j * width + i;
-        if (has_more_surfaces(film + other, sums + other))
-            contrast = fmax(contrast, fabs(brightness(film + pixel) - brightness(film + other)));
-    }
-    return contrast;
-}
-
-/* `is_edge`: the pixel shows more than a surface, or its surface ends beside it. */
-inline float contrast_across(__global const FilmPixel* film, bool is_edge, int x, int y, int width,
-                             int height) {
-    __global const FilmPixel* own = film + y * width + x;
+    __global const FilmPixel* own = film + pixel;
     const float e = mean_emission(own), r = mean_reflectance(own), b = brightness(own);
-    float contrast = 0.0f;
+    float largest = 0.0f;
+    c->beside = 0.0f;
     for (int k = 0; k < 4; ++k) {
         const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
         if (x + i < 0 || x + i >= width || y + j < 0 || y + j >= height) continue;
-        __global const FilmPixel* other = own + j * width + i;
-        is_edge =
-            is_edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
-        contrast = fmax(contrast, fabs(b - brightness(other)));
+        const int next = pixel + j * width + i;
+        __global const FilmPixel* other = film + next;
+        is_edge = is_edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
+        const float difference = fabs(b - brightness(other));
+        largest = fmax(largest, difference);
+        if (has_more_surfaces(other, sums + next)) c->beside = fmax(c->beside, difference);
     }
-    return is_edge ? contrast : 0.0f;
+    c->across = is_edge ? largest : 0.0f;
 }
 
 /* What is kept of surfaces, by entries. */
@@ -164,8 +154,7 @@ inline Contrast contrast_at(__global const FilmPixel* film, SurfaceSums surfaces
     const int pixel = y * width + x;
     const bool is_edge = ends_here || has_more_surfaces(film + pixel, surfaces.sums + pixel);
     Contrast c;
-    c.across = contrast_across(film, is_edge, x, y, width, height);
-    c.beside = contrast_beside(film, surfaces.sums, x, y, width, height);
+    compare_with_next(&c, film, surfaces.sums, is_edge, x, y, width, height);
     c.inside = contrast_inside(film + pixel, surfaces, width * height, pixel);
     return c;
 }
