@@ -5,6 +5,7 @@
    and, when all samples are there,
      filter_edge_noise  the error that edges inside pixels leave
    Arrays: include/wedge/shared/filter.h; places, found and sigmas in planes. */
+#include "lib/contrast.clh"
 #include "lib/probe_planes.clh"
 #include "lib/rest_noise.clh"
 #include "lib/signals.clh"
@@ -61,19 +62,6 @@ inline float2 signal_bandwidth(__constant FilterSettings* settings, __global con
                : (float2)(0.0f);
 }
 
-inline float mean_emission(__global const FilmPixel* p) {
-    return luminance(p->emission.xyz) / fmax(p->position.w, 1.0f);
-}
-
-inline float mean_reflectance(__global const FilmPixel* p) {
-    return luminance(p->albedo.xyz) / fmax(p->normal.w, 1.0f);
-}
-
-/* Radiance of a pixel as sampled so far. */
-inline float brightness(__global const FilmPixel* p) {
-    return mean_emission(p) + luminance(p->direct.xyz + p->indirect.xyz) / fmax(p->direct.w, 1.0f);
-}
-
 __kernel void filter_brightness(__global const FilmPixel* restrict film,
                                 __global float* restrict rows, int width, int height) {
     const int y = (int)get_global_id(0);
@@ -81,82 +69,6 @@ __kernel void filter_brightness(__global const FilmPixel* restrict film,
     float sum = 0.0f;
     for (int x = 0; x < width; ++x) sum += brightness(film + y * width + x);
     rows[y] = sum;
-}
-
-/* True if a pixel shows an edge: more than one surface, or a colour that is not its neighbours'. */
-#define WEDGE_SAME_COLOUR 0.1f
-
-inline bool differs(float a, float b) {
-    return fabs(a - b) > WEDGE_SAME_COLOUR * fmax(a, b);
-}
-
-/* What edges make of a pixel's brightness. */
-typedef struct {
-    float across; /* largest difference to the next pixels, if there is an edge; else 0 */
-    float beside; /* largest difference to those of them that show more than a surface */
-    float inside; /* by colours inside surfaces, twice the standard deviation: what an edge through
-                     the middle has */
-} Contrast;
-
-/* True if a pixel shows more than its first surface. */
-inline bool has_more_surfaces(__global const FilmPixel* own, __global const SurfaceSum* first) {
-    return first->position.w != own->normal.w;
-}
-
-/* `across` and `beside`: what few samples have missed of something thin, or at a corner of the pixel, the next one may
-   show. `is_edge`: the pixel shows more than a surface, or its surface ends beside it. */
-inline void compare_with_next(Contrast* c, __global const FilmPixel* film, __global const SurfaceSum* sums, bool is_edge,
-                              int x, int y, int width, int height) {
-    const int pixel = y * width + x;
-    __global const FilmPixel* own = film + pixel;
-    const float e = mean_emission(own), r = mean_reflectance(own), b = brightness(own);
-    float largest = 0.0f;
-    c->beside = 0.0f;
-    for (int k = 0; k < 4; ++k) {
-        const int i = (k == 0) - (k == 1), j = (k == 2) - (k == 3);
-        if (x + i < 0 || x + i >= width || y + j < 0 || y + j >= height) continue;
-        const int next = pixel + j * width + i;
-        __global const FilmPixel* other = film + next;
-        is_edge = is_edge || differs(e, mean_emission(other)) || differs(r, mean_reflectance(other));
-        const float difference = fabs(b - brightness(other));
-        largest = fmax(largest, difference);
-        if (has_more_surfaces(other, sums + next)) c->beside = fmax(c->beside, difference);
-    }
-    c->across = is_edge ? largest : 0.0f;
-}
-
-/* What is kept of surfaces, by entries. */
-typedef struct {
-    __global const SurfaceSum* sums;
-    __global const uint* more;
-} SurfaceSums;
-
-inline float contrast_inside(__global const FilmPixel* own, SurfaceSums surfaces, int pixels,
-                             int pixel) {
-    float square = 0.0f; /* of the relative deviation, times samples */
-    for (int k = 0; k < WEDGE_SURFACES; ++k) {
-        const int entry = surface_entry(surfaces.more, pixels, pixel, k);
-        if (entry < 0) break;
-        const SurfaceSum s = surfaces.sums[entry];
-        const float n = s.position.w;
-        if (!(n > 0.0f)) break;
-        const float mean = luminance(s.diffuse.xyz + s.specular.xyz) / n;
-        const float deviation = sqrt(fmax(s.specular.w / n - mean * mean, 0.0f));
-        if (2.0f * deviation > WEDGE_SAME_COLOUR * mean)
-            square += n * (deviation / mean) * (deviation / mean);
-    }
-    const float light = fmax(brightness(own) - mean_emission(own), 0.0f);
-    return 2.0f * light * sqrt(square / fmax(own->normal.w, 1.0f));
-}
-
-inline Contrast contrast_at(__global const FilmPixel* film, SurfaceSums surfaces, bool ends_here,
-                            int x, int y, int width, int height) {
-    const int pixel = y * width + x;
-    const bool is_edge = ends_here || has_more_surfaces(film + pixel, surfaces.sums + pixel);
-    Contrast c;
-    compare_with_next(&c, film, surfaces.sums, is_edge, x, y, width, height);
-    c.inside = contrast_inside(film + pixel, surfaces, width * height, pixel);
-    return c;
 }
 
 /* In the logarithm; v >= 1. The exponent of sqrt(2) v is that of v, rounded. */
