@@ -48,9 +48,8 @@ inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float2 f
 inline float2 signal_bandwidth(__constant FilterSettings* settings, __global const Light* lights,
                                __global const SurfaceSum* sum, int signal, float2 found,
                                float pixel) {
-    if (signal < WEDGE_SHADOW_LIGHTS)
-        return light_bandwidth(settings, lights + signal, found, pixel);
-    if (signal == WEDGE_SIGNAL_DIFFUSE)
+    if (is_light(signal)) return light_bandwidth(settings, lights + signal, found, pixel);
+    if (!is_lobe(signal))
         return max_component(sum->diffuse.xyz) > 0.0f
                    ? hemisphere_bandwidth(settings, found, WEDGE_BAND_DIFFUSE, WEDGE_SHARE_DIFFUSE,
                                           pixel)
@@ -104,9 +103,9 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
 /* Variance, from one sample to the next, of the radiance that a signal makes of a pixel. */
 inline float radiance_variance(__global const SurfaceSum* sum, __global const float4* reflected,
                                int signal, float variance) {
-    const float3 colour = signal < WEDGE_SHADOW_LIGHTS     ? reflected[signal].xyz
-                          : signal == WEDGE_SIGNAL_DIFFUSE ? sum->diffuse.xyz
-                                                           : sum->specular.xyz;
+    const float3 colour = is_light(signal)  ? reflected[signal].xyz
+                          : is_lobe(signal) ? sum->specular.xyz
+                                            : sum->diffuse.xyz;
     const float scale = luminance(colour) / sum->position.w;
     return variance * scale * scale;
 }

@@ -63,11 +63,10 @@ inline float hemisphere_variance(float4 first, float4 second) {
 
 /* WEDGE_FOUND_*. */
 inline float3 find(const DistanceRange d, float4 first, float4 second, int signal) {
-    const bool is_light = signal < WEDGE_SHADOW_LIGHTS;
     float3 found = (float3)(-1.0f, 0.0f, -1.0f);
-    found.z = is_light ? visibility_variance(first + second) : hemisphere_variance(first, second);
+    found.z = is_light(signal) ? visibility_variance(first + second) : hemisphere_variance(first, second);
     if (!(d.farthest > 0.0f)) return found;
-    if (is_light) {
+    if (is_light(signal)) {
         const float d1 = d.receiver / d.samples;
         found.x = fmax(d1 / d.farthest - 1.0f, 0.0f);
         found.y = fmax(d1 / fmax(d.nearest, 1e-6f * d1) - 1.0f, found.x);
@@ -149,7 +148,7 @@ inline void add_step(const Neighbours* n, const Places8* p, int i, int j,
         for (int s = 0; s < WEDGE_SIGNALS; ++s) {
             if (max(abs(i), abs(j)) <= VARIANCE_PX)
                 add_variance(sums + s, load_found(n, other, s, WEDGE_FOUND_VARIANCE, at), is_same);
-            if (s >= WEDGE_SHADOW_LIGHTS)
+            if (!is_light(s))
                 add_found(sums + s, load_found(n, other, s, WEDGE_FOUND_LEAST, at),
                           load_found(n, other, s, WEDGE_FOUND_MOST, at), is_same);
         }
@@ -195,8 +194,8 @@ inline void store_near_by(const Neighbours* n, const Places8* p, int surface, in
     const Planes* planes = &n->planes;
     const ulong at = n->group.at;
     const float8 own = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at);
-    const int8 keeps = signal < WEDGE_SHADOW_LIGHTS ? own >= 0.0f : (int8)(0);
-    if (signal < WEDGE_SHADOW_LIGHTS && lane_bits8(~keeps & (p->size > 0.0f)))
+    const int8 keeps = is_light(signal) ? own >= 0.0f : (int8)(0);
+    if (is_light(signal) && lane_bits8(~keeps & (p->size > 0.0f)))
         add_neighbourhood(n, p, signal, sums);
     const int8 is_found = sums->found > 0.0f;
     const float8 least = is_found ? sums->least / sums->found : (float8)(-1.0f);

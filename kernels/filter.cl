@@ -69,7 +69,7 @@ typedef struct {
 } Filter;
 
 inline float3 filter_axis(const Filter* filter, int signal) {
-    return signal < WEDGE_SHADOW_LIGHTS ? filter->lights[signal].normal.xyz : (float3)(0.0f);
+    return is_light(signal) ? filter->lights[signal].normal.xyz : (float3)(0.0f);
 }
 
 /* The pixels of a row or a column that filters for a group may reach: `before` to the one side, `after` to the other.
@@ -163,7 +163,7 @@ inline float3 colour_of(const PixelSums* sums, int pixel, int entry, int signal)
         const bool is_first = entry == pixel;
         return sums->reflected[at].xyz * (is_first ? sums->corrections[at] : 1.0f);
     }
-    return signal == WEDGE_SIGNAL_DIFFUSE ? sums->surfaces[entry].diffuse.xyz : sums->surfaces[entry].specular.xyz;
+    return is_lobe(signal) ? sums->surfaces[entry].specular.xyz : sums->surfaces[entry].diffuse.xyz;
 }
 
 /* Adds what a surface makes of its means to the parts of a group's pixels. */
@@ -182,7 +182,7 @@ inline void add_light(const Planes* planes, __global const float* places, const 
         if (entry < 0) continue;
         const float3 colour = colour_of(sums, pixel, entry, signal) / fmax(sums->film[pixel].normal.w, 1.0f);
         float4* halves =
-            light[lane * WEDGE_PARTS + (is_light(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT)].halves;
+            light[lane * WEDGE_PARTS + (is_direct(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT)].halves;
         halves[0].xyz += colour * (float3)(shares[0][lane], shares[1][lane], shares[2][lane]);
         halves[1].xyz += colour * (float3)(shares[3][lane], shares[4][lane], shares[5][lane]);
     }
@@ -205,6 +205,15 @@ inline void add_sampled_light(HalfLight* light, __global const float4* sums, __g
     light->halves[1].w += scale * half1.z / half1.w;
 }
 
+/* The same of all other lights. */
+inline void add_sampled_others(HalfLight* light, __global const float4* sums, __global const SurfaceSum* surface,
+                               float samples) {
+    const float4 half0 = sums[0].w > 0.0f ? sums[0] : sums[1], half1 = sums[1].w > 0.0f ? sums[1] : sums[0];
+    if (!(half0.w > 0.0f)) return;
+    light->halves[0].w += luminance(surface->diffuse.xyz * half0.xyz) / (half0.w * samples);
+    light->halves[1].w += luminance(surface->diffuse.xyz * half1.xyz) / (half1.w * samples);
+}
+
 /* Of a group's pixels, to where scale `index` keeps them. */
 inline void store_light(const Planes* planes, const Group* group, const HalfLight* result,
                         __global HalfLight* light, int index) {
@@ -225,12 +234,15 @@ inline void add_sampled(const Planes* planes, const Group* group, const PixelSum
         for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
             const int id = surface_entry(sums->more, planes->width * planes->height, pixel, surface);
             if (id < 0) break;
-            for (int signal = 0; signal < WEDGE_SHADOW_LIGHTS; ++signal)
-                add_sampled_light(parts + WEDGE_PART_DIRECT,
-                                  signal_sums + 2u * ((uint)id * WEDGE_SIGNALS + (uint)signal), sums->surfaces + id,
-                                  samples);
+            __global const float4* of_surface = signal_sums + 2u * (uint)id * WEDGE_SIGNALS;
+            __global const SurfaceSum* surface_sum = sums->surfaces + id;
+            for (int light = 0; light < WEDGE_SHADOW_LIGHTS; ++light)
+                add_sampled_light(parts + WEDGE_PART_DIRECT, of_surface + 2 * light, surface_sum, samples);
+            if (WEDGE_DIRECT_SIGNALS > WEDGE_SHADOW_LIGHTS)
+                add_sampled_others(parts + WEDGE_PART_DIRECT, of_surface + 2 * WEDGE_SIGNAL_OTHERS, surface_sum,
+                                   samples);
         }
-        if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
+        if (WEDGE_SIGNALS > WEDGE_DIRECT_SIGNALS)
             for (int h = 0; h < 2; ++h) {
                 float4* half_light = parts[WEDGE_PART_INDIRECT].halves + h;
                 half_light->w = luminance(half_light->xyz);

@@ -84,7 +84,7 @@ inline ScaleErrors add_errors(ScaleErrors a, float weight, ScaleErrors b) {
 
 /* Of a part. */
 inline __global const float4* sampled(__global const SampledLight* light, uint part) {
-    return WEDGE_SHADOW_LIGHTS > 0 && part == WEDGE_PART_DIRECT ? light->direct : light->indirect;
+    return WEDGE_DIRECT_SIGNALS > 0 && part == WEDGE_PART_DIRECT ? light->direct : light->indirect;
 }
 
 /* At least 1. */
@@ -236,8 +236,8 @@ inline Chosen choose(float doubt, ScaleErrors estimates, __global const HalfLigh
 
 /* Of a part. */
 inline float doubt_of(__constant FilterSettings* settings, int part) {
-    return WEDGE_SHADOW_LIGHTS > 0 && part == WEDGE_PART_DIRECT ? settings->doubt_direct
-                                                                : settings->doubt_indirect;
+    return WEDGE_DIRECT_SIGNALS > 0 && part == WEDGE_PART_DIRECT ? settings->doubt_direct
+                                                                 : settings->doubt_indirect;
 }
 
 /* `choose`, or the filter everywhere or nowhere. */
@@ -285,8 +285,8 @@ __kernel void guard_choose(__constant FilterSettings* settings,
     const int x = id % width, y = id / width;
     const Chosen nothing = {(float4)(0.0f), 0.0f, 0.0f};
     Chosen direct = nothing, indirect = nothing;
-    if (WEDGE_SHADOW_LIGHTS > 0) direct = choose_part(&guard, x, y, WEDGE_PART_DIRECT);
-    if (WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS)
+    if (WEDGE_DIRECT_SIGNALS > 0) direct = choose_part(&guard, x, y, WEDGE_PART_DIRECT);
+    if (WEDGE_SIGNALS > WEDGE_DIRECT_SIGNALS)
         indirect = choose_part(&guard, x, y, WEDGE_PART_INDIRECT);
     const float rest = rest_noise_at(unfiltered, x, y, width, height).of_mean /
                        sample_count(unfiltered + id);

@@ -8,9 +8,9 @@
 
    WEDGE_SPECULAR, WEDGE_TEXTURES: compiled in only where the scene has them.
    WEDGE_LIGHT_RAYS: where paths end at the first hit, how often each looks at the lights.
-   WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for filtering
-   (lib/signals.clh, filter.cl), beside the plain estimate. WEDGE_OTHER_LIGHTS: not all lights are
-   filtered.
+   WEDGE_SHADOW_LIGHTS, WEDGE_FILTER_OTHER_LIGHTS, WEDGE_FILTER_HEMISPHERE: signals that are kept for
+   filtering (lib/signals.clh, filter.cl), beside the plain estimate. WEDGE_POINT_LIGHTS_ALONE: these
+   are all the lights that are not filtered one by one.
 
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
 #include "lib/direct_light.clh"
@@ -103,9 +103,9 @@ inline float chance_to_go_on(const Bsdf* f, float3 throughput) {
     return fmin(max_component(throughput * (f->diffuse + f->specular)) / WEDGE_LEAST_THROUGHPUT, 1.0f);
 }
 
-/* What chooses among the lights that are not filtered. Of light straight from them halves need not be
-   independent, and one sequence is better than two. */
-#if WEDGE_SIGNALS > 0 && defined(WEDGE_OTHER_LIGHTS)
+/* What chooses among the lights that are not filtered one by one. Of light straight from points halves
+   need not be independent, and one sequence is better than two. */
+#if WEDGE_SIGNALS > 0 && defined(WEDGE_POINT_LIGHTS_ALONE)
 #define WEDGE_LIGHT_SAMPLER (depth == 0 ? signals->whole : sampler)
 #else
 #define WEDGE_LIGHT_SAMPLER sampler
@@ -124,6 +124,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     result.filtered_direct = result.filtered_indirect = (float3)(0.0f);
     int surface = 0;
     bool by_lobe = false, lit = false;
+#endif
+#ifdef WEDGE_FILTER_OTHER_LIGHTS
+    OtherLights other_lights = {signals, -1, (float3)(0.0f)};
+    float3 diffuse = (float3)(0.0f); /* of the first hit */
 #endif
     const float3 background = params->background.xyz;
     const int bounces = params->bounces;
@@ -169,6 +173,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
                 result.direct += first.reflected * share * emitted * weight;
             else
                 arriving += throughput * emitted * weight;
+#ifdef WEDGE_FILTER_OTHER_LIGHTS
+            if (depth == 1 && !is_light(s.light))
+                other_lights.arriving += first.diffuse * emitted * weight;
+#endif
         }
         const Bsdf f = bsdf_at(scene, &s);
         if (depth == 0) {
@@ -181,6 +189,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             surface = add_to_surface(signals, &s, &f, hit.t * signals->pixel_angle);
             lit = !signals->camera_only ||
                   (max_component(result.albedo) > 0.0f && lacks_light(signals, surface));
+#ifdef WEDGE_FILTER_OTHER_LIGHTS
+            other_lights.surface = surface;
+            diffuse = f.diffuse;
+#endif
             if (!lit) {
 #if WEDGE_SHADOW_LIGHTS > 0
                 reflect_shadow_lights(scene, &s, &f, sampler, surface, signals);
@@ -217,9 +229,12 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 #endif
         if (scene->light_count > first_light) {
             const Sampler* light_sampler = WEDGE_LIGHT_SAMPLER;
+#ifdef WEDGE_FILTER_OTHER_LIGHTS
+            OtherLights* others = depth == 0 ? &other_lights : 0;
+#endif
 #if WEDGE_LIGHT_RAYS > 1
             direct += sample_direct_often(scene, &s, &f, wo, first_light, light_sampler, goes_on,
-                                          &result.rays);
+                                          &result.rays WEDGE_OTHERS_ARG);
 #else
             const float2 u = draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
             const float which =
@@ -227,7 +242,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
                     ? choice.x
                     : draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
             direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on,
-                                    &result.rays);
+                                    &result.rays WEDGE_OTHERS_ARG);
 #endif
         }
         if (depth == 0)
@@ -264,11 +279,17 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         ray.source = s.primitive;
     }
     if (max_component(arriving) > 0.0f) result.indirect = first.reflected * arriving;
-#ifdef WEDGE_FILTER_HEMISPHERE
+#if WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS
     /* What is black ends paths: it does not tell how bright its surroundings are. */
     if (surface >= 0 && lit && max_component(result.albedo) > 0.0f) {
+#ifdef WEDGE_FILTER_OTHER_LIGHTS
+        add_signal(signals, surface, WEDGE_SIGNAL_OTHERS, other_lights.arriving);
+        result.filtered_direct += diffuse * other_lights.arriving;
+#endif
+#ifdef WEDGE_FILTER_HEMISPHERE
         add_hemisphere(signals, surface, &first, arriving);
         result.filtered_indirect = result.indirect;
+#endif
     }
 #endif
     return result;

@@ -61,7 +61,7 @@ bool has(const rendering::Plan& plan, Needs needs) {
         case Needs::nothing:
             return true;
         case Needs::filtered_shadows:
-            return plan.shadow_lights > 0;
+            return plan.direct_signals > 0;
         case Needs::filtered_hemisphere:
             return plan.hemisphere;
         case Needs::any_filter:

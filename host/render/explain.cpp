@@ -39,14 +39,23 @@ Line shadows(const Scene& scene, const Plan& plan) {
     const std::size_t rects = scene.rect_lights.size() + find_shining_rects(scene).size();
     if (rects == 0) return {"soft shadows", "none", "no rectangle shines"};
     if (plan.signals == 0) return {"soft shadows", "Monte Carlo", "the method filters nothing"};
-    if (plan.shadow_lights == 0)  // something else is filtered
-        return {"soft shadows", "Monte Carlo",
+    if (plan.shadow_lights == 0)
+        return {"soft shadows", plan.other_lights ? "as other lamps" : "Monte Carlo",
                 fmt::format("most light is not of the {} most powerful of {} shining rectangles",
                             WEDGE_MAX_SHADOW_LIGHTS, rects)};
     std::string why = fmt::format("on diffuse surfaces seen directly; {} of {} shining rectangles",
                                   plan.shadow_lights, rects);
-    if (std::size_t(plan.shadow_lights) < rects) why += ", the most powerful; others Monte Carlo";
+    if (std::size_t(plan.shadow_lights) < rects) why += ", the most powerful";
     return {"soft shadows", "filtered", why};
+}
+
+Line other_lamps(const Scene& scene, const Plan& plan) {
+    const char* name = "other lamps";
+    if (plan.other_lights)
+        return {name, "filtered", "all at once, on diffuse surfaces seen directly"};
+    const bool any = plan.signals == 0 && shining_power(scene) > 0;
+    return {name, any ? "Monte Carlo" : "none",
+            any ? "the method filters nothing" : "nothing shines but what is above"};
 }
 
 Line hemisphere(const char* name, bool is_there, const char* missing, bool filtered,
@@ -56,7 +65,7 @@ Line hemisphere(const char* name, bool is_there, const char* missing, bool filte
 }
 
 std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
-    std::vector<Line> lines{shadows(scene, plan)};
+    std::vector<Line> lines{shadows(scene, plan), other_lamps(scene, plan)};
     const bool sky = scene.background != Vec3(0);
     const std::string from =
         bounces > 0 ? fmt::format("{} bounces{}", bounces, sky ? " and the background" : "")

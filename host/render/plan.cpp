@@ -29,16 +29,18 @@ constexpr double kLeastFilteredPower = 0.5;
 /// Of less than this share nothing is seen.
 constexpr double kNegligiblePower = 1e-6;
 
-/// Filters the shadows of the most powerful rectangles, unless most light comes from elsewhere.
-void choose_shadow_lights(const Scene& scene, Plan& plan) {
+/// Filters the shadows of the most powerful rectangles, each by itself, unless most light comes
+/// from elsewhere; and all light of other flat lights at once.
+void choose_filtered_lights(const Scene& scene, Plan& plan) {
     std::vector<double> powers;
     for (const RectLight& rect : scene.rect_lights) powers.push_back(light_power(rect));
-    double all = shining_power(scene);
-    for (const double power : powers) all += power;
+    double flat = shining_power(scene), points = 0;
+    for (const double power : powers) flat += power;
     for (const PointLight& point : scene.point_lights)
-        all += 4 * double(kPi) * luminance(point.intensity);
+        points += 4 * double(kPi) * luminance(point.intensity);
     for (const ShiningRect& rect : find_shining_rects(scene))
         powers.push_back(light_power(rect.light));
+    const double all = flat + points;
     std::sort(powers.rbegin(), powers.rend());
     int count = 0;
     double filtered = 0;
@@ -50,7 +52,8 @@ void choose_shadow_lights(const Scene& scene, Plan& plan) {
         filtered = 0;
     }
     plan.shadow_lights = count;
-    plan.other_lights = filtered < (1 - kNegligiblePower) * all;
+    plan.other_lights = filtered < flat - kNegligiblePower * all;
+    plan.point_lights_alone = !plan.other_lights && points > kNegligiblePower * all;
 }
 
 /// What remains of a path that ends at its first hit is to look at lights, which costs less than to
@@ -91,15 +94,17 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
     if (plan.light_rays > 1)
         plan.path_program.defines.push_back("WEDGE_LIGHT_RAYS=" + std::to_string(plan.light_rays));
     if (method == Method::aaf) {
-        choose_shadow_lights(scene, plan);
+        choose_filtered_lights(scene, plan);
         plan.hemisphere = has_hemisphere_light(scene, bounces);
     }
-    plan.signals = plan.shadow_lights + (plan.hemisphere ? 1 + plan.specular : 0);
+    plan.direct_signals = plan.shadow_lights + plan.other_lights;
+    plan.signals = plan.direct_signals + (plan.hemisphere ? 1 + plan.specular : 0);
     if (plan.signals > 0) {
         auto& defines = plan.path_program.defines;
         defines.push_back("WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights));
         if (plan.hemisphere) defines.push_back("WEDGE_FILTER_HEMISPHERE=1");
-        if (plan.other_lights) defines.push_back("WEDGE_OTHER_LIGHTS=1");
+        if (plan.other_lights) defines.push_back("WEDGE_FILTER_OTHER_LIGHTS=1");
+        if (plan.point_lights_alone) defines.push_back("WEDGE_POINT_LIGHTS_ALONE=1");
         plan.filter_programs = {{"kernels/distances.cl", defines},
                                 {"kernels/bandwidth.cl", defines},
                                 {"kernels/filter.cl", defines},

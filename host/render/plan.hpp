@@ -14,10 +14,12 @@ struct Plan {
     bool specular = false;      ///< any visible material has a Phong or Blinn-Phong lobe
     bool textures = false;      ///< any visible material has an image
     bool normal_maps = false;   ///< any visible material bends its normal by an image
-    int shadow_lights = 0;      ///< rectangles whose shadows are filtered
-    bool other_lights = false;  ///< some lights are not among those
-    bool hemisphere = false;    ///< indirect light and that of the background is filtered
-    int light_rays = 1;         ///< that the first hit of a path sends to each light it looks at
+    int shadow_lights = 0;      ///< rectangles whose shadows are filtered, each by itself
+    bool other_lights = false;  ///< light straight from other rectangles and meshes is filtered
+    bool point_lights_alone = false;  ///< not filtered, and the only lights beside shadow_lights
+    bool hemisphere = false;          ///< indirect light and that of the background is filtered
+    int light_rays = 1;      ///< that the first hit of a path sends to each light it looks at
+    int direct_signals = 0;  ///< shadow_lights, and one for other_lights
     int signals = 0;  ///< that are filtered, for each surface of a pixel; 0: plain Monte Carlo
     device::ProgramRequest path_program;
     std::vector<device::ProgramRequest> filter_programs;  ///< if signals > 0

@@ -83,7 +83,7 @@ void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
 
 /// Direct and indirect light, as far as they are filtered.
 int plan_parts(const Plan& plan) {
-    return (plan.shadow_lights > 0) + plan.hemisphere;
+    return (plan.direct_signals > 0) + plan.hemisphere;
 }
 
 /// Of a surface.
@@ -173,6 +173,7 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
       width_(uint32_t(crop.width)),
       height_(uint32_t(crop.height)),
       lights_(uint32_t(plan.shadow_lights)),
+      direct_signals_(uint32_t(plan.direct_signals)),
       signals_(uint32_t(plan.signals)),
       parts_(uint32_t(plan_parts(plan))),
       light_list_(tracer.lights()),
@@ -369,8 +370,8 @@ FilteredLight SignalFilter::read_light() {
 }
 
 void SignalFilter::read_layers(FilteredLight& light) {
-    if (lights_ > 0) light.direct = read_signal(0);
-    if (signals_ > lights_) light.indirect = read_signal(lights_);
+    if (direct_signals_ > 0) light.direct = read_signal(0);
+    if (signals_ > direct_signals_) light.indirect = read_signal(direct_signals_);
 }
 
 SignalLayers SignalFilter::read_signal(uint32_t signal) {

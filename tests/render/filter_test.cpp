@@ -247,8 +247,8 @@ TEST_CASE("parts_of_the_method_can_be_had_alone") {
     for (double samples : channel_values(render(scene, options).image, "spp")) CHECK(samples == 24);
 }
 
-TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
-    // No shadows, so that filters ask for none; but a highlight, which is noise.
+/// No shadows; but a highlight, which is not filtered.
+Scene make_highlight() {
     Material shiny = lambert(0.3f);
     shiny.specular = Vec3(0.4f);
     shiny.exponent = 40;
@@ -258,20 +258,25 @@ TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
     scene.camera = {.position = {0, 1, 3}, .target = {0, 0, 0}, .vertical_fov_rad = 0.6f};
     scene.rect_lights = {
         {.center = {0, 1.5f, -2}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = Vec3(9)}};
-    std::vector<double> samples = channel_values(render(scene, filtered(1)).image, "spp");
+    return scene;
+}
+
+TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
+    // Filters ask for none, but the highlight is noise.
+    const Image image = render(make_highlight(), filtered(1)).image;
+    std::vector<double> samples = channel_values(image, "spp");
     std::sort(samples.begin(), samples.end());
     CHECK(samples.front() == WEDGE_LIGHT_PROBES);
     CHECK(samples.back() >= 4 * WEDGE_LIGHT_PROBES);
     CHECK(samples[samples.size() / 4] == WEDGE_LIGHT_PROBES);  // only there
 }
 
-/// A ball that shines, which is not filtered, over a ground that bounces its light, which is.
-Scene make_lantern() {
-    Material lamp = lambert(0);
-    lamp.emission = Vec3(40);
-    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0),
-                              make_sphere({0, 1.5f, 0}, 0.3f, 8, false, 1)},
-                             {lambert(0.7f), lamp});
+/// Points of light, which are not filtered, over a ground.
+Scene make_candles() {
+    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0)}, {lambert(0.7f)});
+    for (int i = 0; i < 16; ++i)
+        scene.point_lights.push_back({.position = {0.2f * float(i % 4), 1.5f, 0.2f * float(i / 4)},
+                                      .intensity = Vec3(0.1f * float(1 + i % 5))});
     scene.film = {32, 24};
     scene.camera = {.position = {0, 2.5f, 5}, .target = {0, 0, 1}, .vertical_fov_rad = 0.5f};
     return scene;
@@ -279,7 +284,7 @@ Scene make_lantern() {
 
 TEST_CASE("light_that_is_not_filtered_is_drawn_from_one_sequence") {
     // As good as path tracing; with one for each half the error is a third larger.
-    const Scene scene = make_lantern();
+    const Scene scene = make_candles();
     const Image truth = render(scene, quick(1024, 1, Sampler::lattice, 9)).image;
     double squares = 0, plain = 0;
     for (uint32_t seed = 0; seed < 4; ++seed) {
@@ -295,7 +300,7 @@ TEST_CASE("light_that_is_not_filtered_is_drawn_from_one_sequence") {
 }
 
 TEST_CASE("error_of_light_that_is_not_filtered_is_told") {
-    const Scene scene = make_lantern();
+    const Scene scene = make_highlight();
     const Image truth = render(scene, quick(1024, 1, Sampler::lattice, 9)).image;
     for (float mu : {0.5f, 4.0f}) {
         double told = 0, squares = 0;

@@ -38,17 +38,34 @@ TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
     CHECK(explain(scene, filtered(1)).find(filtering) == std::string::npos);
     RenderOptions bouncing = filtered(1);
     bouncing.bounces = 1;
-    CHECK(explain(scene, bouncing).find("WEDGE_OTHER_LIGHTS=1") != std::string::npos);
+    const char* others = "WEDGE_FILTER_OTHER_LIGHTS=1";
+    CHECK(explain(scene, bouncing).find(others) != std::string::npos);
     scene.meshes.back() = make_quad({-1, 9, -1}, {2, 0, 0}, {0, 0, 2}, 1);
     CHECK(explain(scene, filtered(1)).find(filtering) != std::string::npos);
-    CHECK(explain(scene, bouncing).find("WEDGE_OTHER_LIGHTS") == std::string::npos);
+    CHECK(explain(scene, bouncing).find(others) == std::string::npos);
+}
+
+TEST_CASE("lights_that_are_not_filtered_one_by_one_are_named") {
+    const auto has = [](const Scene& scene, const char* text) {
+        return explain(scene, filtered(1)).find(text) != std::string::npos;
+    };
+    Scene scene = make_penumbra(LightProfile::uniform);
+    CHECK(has(scene, "other lamps        none"));
+    CHECK_FALSE(has(scene, "WEDGE_POINT_LIGHTS_ALONE"));
+    scene.point_lights = {{.position = {0, 2, 0}}};
+    CHECK(has(scene, "other lamps        none"));
+    CHECK(has(scene, "WEDGE_POINT_LIGHTS_ALONE=1"));
+    scene.rect_lights.resize(5, scene.rect_lights[0]);  // four of which are filtered by themselves
+    CHECK(has(scene, "other lamps        filtered"));
+    CHECK_FALSE(has(scene, "WEDGE_POINT_LIGHTS_ALONE"));
 }
 
 TEST_CASE("scenes_with_nothing_to_filter_are_plain_monte_carlo") {
     // Down to the samples: pixels that all get as many need no sequences of their own for halves.
     Scene scene = make_penumbra(LightProfile::uniform);
     scene.film = {24, 18};
-    scene.rect_lights.resize(9, scene.rect_lights[0]);
+    scene.rect_lights.clear();
+    scene.point_lights.resize(9, {.position = {0, 2, 0}});
     RenderOptions options = filtered(1);
     options.samples_per_pixel = 24;
     const Image image = render(scene, options).image, plain = render(scene, quick(24, 0)).image;
