@@ -70,6 +70,18 @@ __kernel void filter_brightness(__global const FilmPixel* restrict film,
     rows[y] = sum;
 }
 
+/* What the pixels around reflect, in the mean. One's own few samples are bright by luck here and there;
+   if fewer followed where they are, the image would stay too bright. */
+inline float reflected_brightness(__global const FilmPixel* film, Around a, int width) {
+    float sum = 0.0f;
+    for (int j = a.top; j <= a.bottom; ++j)
+        for (int i = a.left; i <= a.right; ++i) {
+            __global const FilmPixel* p = film + j * width + i;
+            sum += brightness(p) - mean_emission(p);
+        }
+    return sum / (float)((a.right - a.left + 1) * (a.bottom - a.top + 1));
+}
+
 /* In the logarithm; v >= 1. The exponent of sqrt(2) v is that of v, rounded. */
 inline float nearest_power_of_two(float v) {
     return as_float(as_int(1.41421356f * v) & 0x7f800000);
@@ -169,7 +181,7 @@ __kernel void filter_bandwidth(
     const int x = pixel % width, y = pixel / width;
     const ulong at = pixel_at(&planes, x, y);
     const float seen = fmax(film[pixel].normal.w, 1.0f);
-    const float own = brightness(film + pixel) - mean_emission(film + pixel);
+    const float own = reflected_brightness(film, around(x, y, width, height), width);
     const float bright = fmax(own * own + mean_brightness * mean_brightness, 1e-30f);
     const RestNoise rest = rest_noise_at(unfiltered, x, y, width, height);
     float theory = 0.0f, noise = noise_samples(settings->mu, rest.of_sample / bright, 1.0f);

@@ -56,6 +56,20 @@ TEST_CASE("a_shining_ball_lights_the_ground_by_its_solid_angle") {
     CHECK(std::sqrt(squares / double(found.size())) < 0.02);
 }
 
+TEST_CASE("numbers_of_samples_do_not_make_light_that_is_bright_by_luck_last") {
+    const Scene scene = make_lantern();
+    double found = 0, expected = 0;
+    for (uint32_t seed = 0; seed < 16; ++seed) {
+        RenderOptions options = filtered(0.5f, seed);
+        options.filter = FilterMode::none;
+        const Image image = render(scene, options).image;
+        CHECK(channel_mean(image, "spp") > 12);  // so that the first ones do not decide alone
+        found += sum_of(channel_values(image, "direct.G"));
+        expected += sum_of(expected_light(image));
+    }
+    CHECK(found == doctest::Approx(expected).epsilon(0.008).scale(1e-9));
+}
+
 TEST_CASE("light_of_meshes_is_filtered_apart_from_what_bounces") {
     Scene scene = make_lantern();
     scene.meshes.push_back(make_quad({-1.2f, 0, -1}, {0, 0, 3}, {0, 2, 0}, 0));
