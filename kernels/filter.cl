@@ -10,6 +10,7 @@
 #include "lib/filter_weight.clh"
 #include "lib/flat_light.clh"
 #include "lib/line_fit.clh"
+#include "lib/remainder.clh"
 #include "lib/signals.clh"
 #include "wedge/shared/frame.h"
 
@@ -155,6 +156,7 @@ typedef struct {
     __global const uint* more;
     __global const float4* reflected;
     __global const float* corrections; /* of `reflected` of first surfaces */
+    __global const Remainder* remainders;
 } PixelSums;
 
 inline float3 colour_of(const PixelSums* sums, int pixel, int entry, int signal) {
@@ -214,6 +216,20 @@ inline void add_sampled_others(HalfLight* light, __global const float4* sums, __
     light->halves[1].w += luminance(surface->diffuse.xyz * half1.xyz) / (half1.w * samples);
 }
 
+/* Light of a group's pixels that no filter changes; only those that show more than one surface have any. */
+inline void begin_light(const Planes* planes, const Group* group, const PixelSums* sums, HalfLight* light) {
+    const int first = group->y * planes->width + group->x, pixels = planes->width * planes->height;
+    for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) light[i] = no_light();
+    for (int lane = 0; lane < min(WEDGE_LANES, planes->width - group->x); ++lane) {
+        const int pixel = first + lane;
+        if (surface_entry(sums->more, pixels, pixel, 1) < 0) continue;
+        __global const Remainder* remainder = sums->remainders + pixel;
+        if (!(remainder->direct.w > 0.0f)) continue;
+        add_remainder_light(light + lane * WEDGE_PARTS, remainder,
+                            remainder_share(sums->film, sums->surfaces, sums->more, pixels, pixel));
+    }
+}
+
 /* Of a group's pixels, to where scale `index` keeps them. */
 inline void store_light(const Planes* planes, const Group* group, const HalfLight* result,
                         __global HalfLight* light, int index) {
@@ -254,15 +270,16 @@ __kernel void filter_none(__global const float* restrict places, __global const 
                           __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
                           __global const float4* restrict reflected,
                           __global const float* restrict corrections,
+                          __global const Remainder* restrict remainders,
                           __global const float4* restrict signal_sums,
                           __global const float* restrict means, __global HalfLight* restrict light,
                           int width, int height) {
     const Planes planes = make_planes(width, height);
     const Group group = group_in_rows(&planes, (int)get_global_id(0));
     if (!is_on_film(&planes, &group)) return;
-    const PixelSums sums = {film, surface_sums, more, reflected, corrections};
+    const PixelSums sums = {film, surface_sums, more, reflected, corrections, remainders};
     HalfLight result[WEDGE_LANES * WEDGE_PARTS];
-    for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
+    begin_light(&planes, &group, &sums, result);
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
         if (!any_surface(&planes, places, surface, group.at)) break;
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
@@ -299,14 +316,14 @@ __kernel void filter_x(WEDGE_FILTER_PARAMS, __global float* restrict filtered) {
 __kernel void filter_y(WEDGE_FILTER_PARAMS, __global const FilmPixel* restrict film,
                        __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
                        __global const float4* restrict reflected, __global const float* restrict corrections,
-                       __global HalfLight* restrict light, int index) {
+                       __global const Remainder* restrict remainders, __global HalfLight* restrict light, int index) {
     const Filter filter = WEDGE_FILTER_ARGS;
     const Group group = group_in_columns(&filter.planes, (int)get_global_id(0));
     if (!is_on_film(&filter.planes, &group)) return;
     const Line line = {group.y, height - 1 - group.y, 0, filter.planes.pitch};
-    const PixelSums sums = {film, surface_sums, more, reflected, corrections};
+    const PixelSums sums = {film, surface_sums, more, reflected, corrections, remainders};
     HalfLight result[WEDGE_LANES * WEDGE_PARTS];
-    for (int i = 0; i < WEDGE_LANES * WEDGE_PARTS; ++i) result[i] = no_light();
+    begin_light(&filter.planes, &group, &sums, result);
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
         if (!any_surface(&filter.planes, places, surface, group.at)) break;
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {

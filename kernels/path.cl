@@ -17,6 +17,7 @@
 #include "lib/film.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
+#include "lib/remainder.clh"
 #include "lib/replay.clh"
 #include "lib/shadow_light.clh"
 #include "wedge/shared/frame.h"
@@ -29,6 +30,7 @@ typedef struct {
     uint rays;
 #if WEDGE_SIGNALS > 0
     float3 filtered_direct, filtered_indirect; /* what filters take the place of */
+    bool remains; /* it met the pixel's remainder */
 #endif
     WEDGE_REPLAY_FIELD
 } PathResult;
@@ -122,6 +124,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
     result.rays = 0;
 #if WEDGE_SIGNALS > 0
     result.filtered_direct = result.filtered_indirect = (float3)(0.0f);
+    result.remains = false;
     int surface = 0;
     bool by_lobe = false, lit = false;
 #endif
@@ -188,7 +191,7 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
 #if WEDGE_SIGNALS > 0
             surface = add_to_surface(signals, &s, &f, hit.t * signals->pixel_angle);
             lit = !signals->camera_only ||
-                  (max_component(result.albedo) > 0.0f && lacks_light(signals, surface));
+                  ((surface < 0 || max_component(result.albedo) > 0.0f) && lacks_light(signals, surface));
 #ifdef WEDGE_FILTER_OTHER_LIGHTS
             other_lights.surface = surface;
             diffuse = f.diffuse;
@@ -279,6 +282,10 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
         ray.source = s.primitive;
     }
     if (max_component(arriving) > 0.0f) result.indirect = first.reflected * arriving;
+#if WEDGE_SIGNALS > 0
+    result.remains = surface < 0;
+    if (surface < 0 && lit) add_to_remainder(signals, result.direct, result.indirect);
+#endif
 #if WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS
     /* What is black ends paths: it does not tell how bright its surroundings are. */
     if (surface >= 0 && lit && max_component(result.albedo) > 0.0f) {
@@ -304,9 +311,13 @@ inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
     /* In this order it is 0, and not a rounding error, where all light is filtered. */
     const float3 rest = (r->direct - r->filtered_direct) + (r->indirect - r->filtered_indirect);
     if (!fits_film(r->filtered_direct + r->filtered_indirect + rest)) return;
+    /* Of the remainder another estimate is taken, too, if only with filtered light. */
+    const bool direct_remains = r->remains && WEDGE_DIRECT_SIGNALS > 0;
+    const bool indirect_remains = r->remains && WEDGE_SIGNALS > WEDGE_DIRECT_SIGNALS;
     __global SampledLight* sums = signals->unfiltered;
-    sums->direct[signals->half_index] += (float4)(r->filtered_direct, 1.0f);
-    sums->indirect[signals->half_index] += (float4)(r->filtered_indirect, 0.0f);
+    sums->direct[signals->half_index] += (float4)(direct_remains ? r->direct : r->filtered_direct, 1.0f);
+    sums->indirect[signals->half_index] +=
+        (float4)(indirect_remains ? r->indirect : r->filtered_indirect, 0.0f);
     if (is_power_of_two(signals->sample)) sums->rest.yz = sums->rest.xy;
     sums->rest.x += luminance(rest);
     if (signals->half_index == 1) sums->rest.w += luminance(rest);
@@ -354,6 +365,7 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                             all_distances,
                             all_reflected,
                             all_unfiltered + pixel,
+                            all_remainders + pixel,
                             filter_settings->pixel_angle,
                             0,
                             0,

@@ -22,7 +22,7 @@ constexpr float kCameraRays = 80;     // of a pixel with an edge as high as the 
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
-constexpr cl_uint kIndexArg = 14;       // of filter_y
+constexpr cl_uint kIndexArg = 15;       // of filter_y
 constexpr cl_uint kBrightnessArg = 14;  // of filter_bandwidth
 
 /// The longer paths are, the cheaper beside them (kernels/bandwidth.cl).
@@ -161,7 +161,7 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
         {"unshadowed light", uint64_t(plan.shadow_lights) *
                                  (surfaces * sizeof(shared::float4) + pixels * sizeof(float))},
         {"light before and after filters",
-         pixels * (sizeof(shared::SampledLight) +
+         pixels * (sizeof(shared::SampledLight) + sizeof(shared::Remainder) +
                    uint64_t(plan_parts(plan)) * WEDGE_SCALES * sizeof(shared::HalfLight))},
     };
 }
@@ -184,8 +184,8 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
     device_.finish();
     stats.upload_s += watch.lap();
     compile(plan, kernel_dir, stats);
-    const cl::Buffer kept[] = {settings_,   surface_sums_, sums_,        distances_, reflected_,
-                               unfiltered_, more_,         sample_ends_, pixel_list_};
+    const cl::Buffer kept[] = {settings_,   surface_sums_, sums_, distances_,   reflected_,
+                               unfiltered_, remainders_,   more_, sample_ends_, pixel_list_};
     tracer.attach_signals(kept);
     stats.device_bytes = device.allocated_bytes();
 }
@@ -215,6 +215,7 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     corrections_ =
         device_.allocate(pixels * lights_ * sizeof(float), "unshadowed light of flat pixels");
     unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
+    remainders_ = zeros(pixels, sizeof(shared::Remainder), "remainders of pixels");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     allocate_planes();
     light_ =
@@ -291,11 +292,12 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, more_, means_, width, height);
     set_kernel_args(filter_none_, places_, film_, surface_sums_, more_, reflected_, corrections_,
-                    sums_, means_, light_, width, height);
+                    remainders_, sums_, means_, light_, width, height);
     set_kernel_args(filter_x_, settings_, light_list_, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
     set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,
-                    1.0f, film_, surface_sums_, more_, reflected_, corrections_, light_, cl_int(0));
+                    1.0f, film_, surface_sums_, more_, reflected_, corrections_, remainders_,
+                    light_, cl_int(0));
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, parts);
     set_kernel_args(guard_smooth_, errors_, smoothed_, width, height);
     set_kernel_args(choose_, settings_, unfiltered_, light_, smoothed_, guarded_, width, height);

@@ -95,7 +95,7 @@ class SignalFilter {
     uint32_t width_, height_, lights_, direct_signals_, signals_, parts_;
     cl::Buffer light_list_, params_, film_;
     cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, more_, sums_, distances_,
-        reflected_, corrections_, unfiltered_;
+        reflected_, corrections_, unfiltered_, remainders_;
     cl::Buffer places_, found_, near_by_, ends_, sigmas_, means_, filtered_;  // in planes
     cl::Buffer light_, errors_, smoothed_, guarded_;
     cl::Kernel surfaces_kernel_, distances_kernel_, neighbours_kernel_, brightness_kernel_,

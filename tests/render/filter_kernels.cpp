@@ -74,6 +74,7 @@ std::vector<shared::HalfLight> run_filter_y(device::Device& device, const Filter
     filter.add(upload(device, std::vector<cl_uint>(pixels + 1)));
     filter.add(upload(device, std::vector<shared::float4>(surfaces.size(), {1, 1, 1, 0})));
     filter.add(upload(device, std::vector<float>(pixels, 1.0f)));
+    filter.add(upload(device, std::vector<shared::Remainder>(pixels)));
     std::vector<shared::HalfLight> light(2 * pixels);
     const cl::Buffer filtered = filter.add(upload(device, light));
     filter.kernel.setArg(filter.index, cl_int(0));

@@ -65,6 +65,13 @@ typedef struct SampledLight {
 } SampledLight;
 WEDGE_ASSERT_SIZE(SampledLight, 80);
 
+/* Sums over the paths that met a surface of the pixel which is one too many. */
+typedef struct Remainder {
+    float4 direct;   /* rgb, w: paths */
+    float4 indirect; /* rgb, w: 0 */
+} Remainder;
+WEDGE_ASSERT_SIZE(Remainder, 32);
+
 /* Parts of a pixel's light that are filtered apart: direct, then indirect, as far as a plan has
    signals of them. One of the parts, filtered, by halves of the pixel's samples. */
 typedef struct HalfLight {
