@@ -95,9 +95,11 @@ inline float nearest_power_of_two(float v) {
 
    Where an edge is too faint for the image to gain by that, it may still be all the error that there is
    near by. A pixel that has one gets as many camera rays as it would get paths if it needed them, and one
-   beside it a few more than the probe's, which may have missed it. */
-#define WEDGE_LEAST_AT_EDGES 64.0f     /* for mu = 1 */
-#define WEDGE_LEAST_BESIDE_EDGES 16.0f /* for mu = 1 */
+   beside it a few more than the probe's, which may have missed it. Textures have colours that differ
+   everywhere. */
+#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; with its 0.8th power */
+#define WEDGE_LEAST_AT_COLOURS 64.0f   /* for mu = 1; with its root, as the next */
+#define WEDGE_LEAST_BESIDE_EDGES 16.0f
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
 #define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
@@ -106,10 +108,17 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges *
                     pow(settings->mu * contrast / mean_brightness, 0.8f);
-    const float least = least_rays * sqrt(settings->mu);
     const float most =
         fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
-    return (uint)nearest_power_of_two(clamp(n, fmin(least, most), most));
+    return (uint)nearest_power_of_two(clamp(n, fmin(least_rays, most), most));
+}
+
+/* Of a pixel with these contrasts. `is_edge`: of geometry. */
+inline uint camera_rays_of(__constant FilterSettings* settings, Contrast c, bool is_edge, float mean_brightness) {
+    const float root = sqrt(settings->mu);
+    const float least = is_edge ? WEDGE_LEAST_AT_EDGES * pow(settings->mu, 0.8f) : WEDGE_LEAST_AT_COLOURS * root;
+    const uint here = camera_rays(settings, fmax(c.across, c.inside), mean_brightness, least);
+    return max(here, camera_rays(settings, c.beside, mean_brightness, WEDGE_LEAST_BESIDE_EDGES * root));
 }
 
 /* Variance, from one sample to the next, of the radiance that a signal makes of a pixel. */
@@ -213,12 +222,11 @@ __kernel void filter_bandwidth(
     const SampleEnds before = sample_ends[pixel];
     const uint end = max((uint)clamp(power, least, cap), before.paths_before);
     const SurfaceSums surfaces = {surface_sums, more};
-    const Contrast contrast = contrast_at(film, surfaces, ends[at] > 0.0f, x, y, width, height);
-    const uint at_edges = camera_rays(settings, fmax(contrast.across, contrast.inside), mean_brightness,
-                                      WEDGE_LEAST_AT_EDGES);
-    const uint beside = camera_rays(settings, contrast.beside, mean_brightness, WEDGE_LEAST_BESIDE_EDGES);
+    const bool is_edge = ends[at] > 0.0f || has_more_surfaces(film + pixel, surface_sums + pixel);
+    const Contrast contrast = contrast_at(film, surfaces, is_edge, x, y, width, height);
+    const uint rays = camera_rays_of(settings, contrast, is_edge, mean_brightness);
     sample_ends[pixel].paths = end;
-    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), max(at_edges, beside));
+    sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
 }
 
 /* A straight edge of contrast C across a pixel leaves an error of mean square 0.11 C^2 n^-1.5 with n
@@ -237,9 +245,9 @@ __kernel void filter_edge_noise(__global const FilmPixel* restrict film,
     if (pixel >= width * height) return;
     const Planes planes = make_planes(width, height);
     const int x = pixel % width, y = pixel / width;
-    const bool ends_here = ends[pixel_at(&planes, x, y)] > 0.0f;
+    const bool is_edge = ends[pixel_at(&planes, x, y)] > 0.0f || has_more_surfaces(film + pixel, surface_sums + pixel);
     const SurfaceSums surfaces = {surface_sums, more};
-    const Contrast c = contrast_at(film, surfaces, ends_here, x, y, width, height);
+    const Contrast c = contrast_at(film, surfaces, is_edge, x, y, width, height);
     const float n = fmax(film[pixel].normal.w, 1.0f);
     const float square = fmax(c.across * c.across / WEDGE_SQUARES_ACROSS, c.inside * c.inside);
     guarded[pixel].error.w = WEDGE_EDGE_NOISE * square / (n * sqrt(n));
