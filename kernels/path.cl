@@ -13,27 +13,9 @@
    are all the lights that are not filtered one by one.
 
    WEDGE_REPLAY: each vertex is written down, for looking at a single pixel. */
-#include "lib/direct_light.clh"
 #include "lib/film.clh"
-#include "lib/light.clh"
-#include "lib/random.clh"
-#include "lib/remainder.clh"
-#include "lib/replay.clh"
-#include "lib/shadow_light.clh"
+#include "lib/path.clh"
 #include "wedge/shared/frame.h"
-
-typedef struct {
-    float3 emission, direct, indirect;
-    float3 albedo, normal, position;
-    float depth;
-    float hit; /* 1 if the camera ray met anything */
-    uint rays;
-#if WEDGE_SIGNALS > 0
-    float3 filtered_direct, filtered_indirect; /* what filters take the place of */
-    bool remains; /* it met the pixel's remainder */
-#endif
-    WEDGE_REPLAY_FIELD
-} PathResult;
 
 inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     Ray ray;
@@ -45,170 +27,35 @@ inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     return ray;
 }
 
-/* What becomes of light that reaches the first hit along the scattered ray. */
-typedef struct {
-    float3 reflected; /* share that goes on to the camera, over the ray's density */
-#if WEDGE_SIGNALS > 0
-    float3 lobe_share;   /* of `reflected`: by the lobe */
-    float diffuse, lobe; /* the same for kd = 1 and for ks = 1 alone */
-#endif
-} FirstBounce;
-
-inline FirstBounce first_bounce(const Bsdf* f, const Surface* s, float3 wo, float3 wi, float3 value,
-                                float pdf) {
-    FirstBounce b;
-    const float cos_over_pdf = dot(s->normal, wi) / pdf;
-    b.reflected = value * cos_over_pdf;
-#if WEDGE_SIGNALS > 0
-    const float3 diffuse = f->diffuse * WEDGE_INV_PI;
-    b.lobe_share = 1.0f - diffuse / fmax(value, 1e-30f);
-    b.diffuse = WEDGE_INV_PI * cos_over_pdf;
-    b.lobe = lobe_value(f, s->normal, wo, wi) * cos_over_pdf;
-#endif
-    return b;
-}
-
-#if WEDGE_SIGNALS > 0
-/* Probe samples note how far away what they see from the first hit is. */
-inline void note_reflector(const PixelSignals* signals, int surface, float distance, bool by_lobe) {
-#ifdef WEDGE_FILTER_HEMISPHERE
-    if (!signals->probing) return;
-    add_distance(signals, surface, WEDGE_SIGNAL_DIFFUSE, distance);
-#ifdef WEDGE_SPECULAR
-    if (by_lobe) add_distance(signals, surface, WEDGE_SIGNAL_LOBE, distance);
-#endif
-#endif
-}
-#endif
-
-#ifdef WEDGE_FILTER_HEMISPHERE
-#define WEDGE_DEPTH_OF_DIRECT_SKY (-1) /* filtered with the rest of the hemisphere */
-
-inline void add_hemisphere(const PixelSignals* signals, int surface, const FirstBounce* first,
-                           float3 arriving) {
-    const bool any = max_component(arriving) > 0.0f;
-    const float3 none = (float3)(0.0f);
-    add_signal(signals, surface, WEDGE_SIGNAL_DIFFUSE, any ? first->diffuse * arriving : none);
-#ifdef WEDGE_SPECULAR
-    add_signal(signals, surface, WEDGE_SIGNAL_LOBE, any ? first->lobe * arriving : none);
-#endif
-}
-#else
-#define WEDGE_DEPTH_OF_DIRECT_SKY 1
-#endif
-
-/* Russian roulette (Arvo, Kirk 1990): a ray costs as much where little is left to be carried on. Up to
-   this loss since the first hit all paths go on, or smooth light would get the noise of the decision. */
-#define WEDGE_LEAST_THROUGHPUT 0.5f
-
-inline float chance_to_go_on(const Bsdf* f, float3 throughput) {
-    return fmin(max_component(throughput * (f->diffuse + f->specular)) / WEDGE_LEAST_THROUGHPUT, 1.0f);
-}
-
-/* What chooses among the lights that are not filtered one by one. Of light straight from points halves
-   need not be independent, and one sequence is better than two. */
-#if WEDGE_SIGNALS > 0 && defined(WEDGE_POINT_LIGHTS_ALONE)
-#define WEDGE_LIGHT_SAMPLER (depth == 0 ? signals->whole : sampler)
-#else
-#define WEDGE_LIGHT_SAMPLER sampler
-#endif
-
 inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
                              float3 view_axis,
                              const Sampler* sampler WEDGE_SIGNAL_PARAMS WEDGE_REPLAY_PARAMS) {
-    PathResult result;
-    WEDGE_IF_REPLAY(result.record = record;)
-    result.emission = result.direct = result.indirect = (float3)(0.0f);
-    result.albedo = result.normal = result.position = (float3)(0.0f);
-    result.depth = result.hit = 0.0f;
-    result.rays = 0;
-#if WEDGE_SIGNALS > 0
-    result.filtered_direct = result.filtered_indirect = (float3)(0.0f);
-    result.remains = false;
-    int surface = 0;
-    bool by_lobe = false, lit = false;
-#endif
-#ifdef WEDGE_FILTER_OTHER_LIGHTS
-    OtherLights other_lights = {signals, -1, (float3)(0.0f)};
-    float3 diffuse = (float3)(0.0f); /* of the first hit */
-#endif
+    Path p;
+    begin_path(&p, ray WEDGE_SIGNAL_ARG WEDGE_REPLAY_ARG);
     const float3 background = params->background.xyz;
     const int bounces = params->bounces;
-
-    FirstBounce first;
-    float3 arriving = (float3)(0.0f);   /* at the first hit, along the scattered ray */
-    float3 throughput = (float3)(1.0f); /* since the first hit */
-    /* The surface point itself: light was sampled as seen from there. */
-    float3 ray_start = ray.origin;
-    /* Of the ray, over solid angle; 0: only this ray could find the light. */
-    float pdf_direction = 0.0f;
     for (int depth = 0; depth <= bounces + 1; ++depth) {
-        result.rays += 1;
-        const Hit hit = trace_closest(scene->tree, ray);
+        p.result.rays += 1;
+        const Hit hit = trace_closest(scene->tree, p.ray);
         if (hit.primitive == WEDGE_NO_PRIMITIVE) {
-            if (depth == 0)
-                result.emission = background;
-            else if (depth == WEDGE_DEPTH_OF_DIRECT_SKY)
-                result.direct += first.reflected * background;
-            else
-                arriving += throughput * background;
-            WEDGE_IF_REPLAY(record_miss(result.record + depth, ray.direction,
-                                        depth > 0 ? first.reflected * throughput : throughput,
+            meet_background(&p, depth, background);
+            WEDGE_IF_REPLAY(record_miss(p.result.record + depth, p.ray.direction, share_so_far(&p, depth),
                                         background);)
             break;
         }
-        const float3 wo = -ray.direction;
+        const float3 wo = -p.ray.direction;
         const Surface s = surface_at(scene, hit, wo);
-
-        float pdf_light;
-        const float3 emitted = emitted_radiance(scene, &s, ray_start, &pdf_light);
-        if (max_component(emitted) > 0.0f) {
-            float3 share = (float3)(1.0f);
-#if WEDGE_SHADOW_LIGHTS > 0
-            if (depth == 1)
-                share = share_at_first_hit(scene, s.light, first.lobe_share, &pdf_light);
-#endif
-            const float weight =
-                pdf_direction > 0.0f ? pdf_direction / (pdf_direction + pdf_light) : 1.0f;
-            if (depth == 0)
-                result.emission = emitted;
-            else if (depth == 1)
-                result.direct += first.reflected * share * emitted * weight;
-            else
-                arriving += throughput * emitted * weight;
-#ifdef WEDGE_FILTER_OTHER_LIGHTS
-            if (depth == 1 && !is_light(s.light))
-                other_lights.arriving += first.diffuse * emitted * weight;
-#endif
-        }
+        const float3 emitted = meet_emission(scene, &p, &s, depth);
         const Bsdf f = bsdf_at(scene, &s);
         if (depth == 0) {
-            result.hit = 1.0f;
-            result.albedo = f.diffuse + f.specular;
-            result.normal = s.normal;
-            result.position = s.position;
-            result.depth = hit.t * dot(ray.direction, view_axis);
-#if WEDGE_SIGNALS > 0
-            surface = add_to_surface(signals, &s, &f, hit.t * signals->pixel_angle);
-            lit = !signals->camera_only ||
-                  ((surface < 0 || max_component(result.albedo) > 0.0f) && lacks_light(signals, surface));
-#ifdef WEDGE_FILTER_OTHER_LIGHTS
-            other_lights.surface = surface;
-            diffuse = f.diffuse;
-#endif
-            if (!lit) {
-#if WEDGE_SHADOW_LIGHTS > 0
-                reflect_shadow_lights(scene, &s, &f, sampler, surface, signals);
-#endif
-                break;
-            }
+            meet_first_hit(&p, &s, &f, hit.t * dot(p.ray.direction, view_axis));
+            if (!keep_first_hit(scene, &p, &s, &f, sampler, hit.t)) break;
         } else if (depth == 1) {
-            note_reflector(signals, surface, hit.t, by_lobe);
-#endif
+            note_reflector(&p, hit.t);
         }
-        const float3 so_far = depth > 0 ? first.reflected * throughput : throughput;
+        WEDGE_IF_REPLAY(const float3 so_far = share_so_far(&p, depth);)
         if (depth > bounces) {
-            WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, so_far,
+            WEDGE_IF_REPLAY(record_hit(p.result.record + depth, hit.t, s.position, s.normal, so_far,
                                        emitted, (float3)(0.0f), s.primitive, s.material);)
             break;
         }
@@ -220,86 +67,17 @@ inline PathResult trace_path(const Scene* scene, __global const FrameParams* par
             goes_on || (WEDGE_LIGHT_RAYS == 1 && scene->light_count > 1)
                 ? draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE))
                 : (float2)(0.0f);
-        float3 direct = (float3)(0.0f);
-        uint first_light = 0;
-#if WEDGE_SHADOW_LIGHTS > 0
-        if (depth == 0) {
-            first_light = WEDGE_SHADOW_LIGHTS;
-            direct = sample_shadow_lights(scene, &s, &f, wo, sampler, surface, signals,
-                                          &result.filtered_direct);
-            result.rays += WEDGE_SHADOW_LIGHTS * WEDGE_LIGHT_RAYS;
-        }
-#endif
-        if (scene->light_count > first_light) {
-            const Sampler* light_sampler = WEDGE_LIGHT_SAMPLER;
-#ifdef WEDGE_FILTER_OTHER_LIGHTS
-            OtherLights* others = depth == 0 ? &other_lights : 0;
-#endif
-#if WEDGE_LIGHT_RAYS > 1
-            direct += sample_direct_often(scene, &s, &f, wo, first_light, light_sampler, goes_on,
-                                          &result.rays WEDGE_OTHERS_ARG);
-#else
-            const float2 u = draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_LIGHT));
-            const float which =
-                light_sampler == sampler
-                    ? choice.x
-                    : draw_2d(light_sampler, vertex_dimension(depth, WEDGE_VERTEX_CHOICE)).x;
-            direct += sample_direct(scene, &s, &f, wo, first_light, which, u, goes_on,
-                                    &result.rays WEDGE_OTHERS_ARG);
-#endif
-        }
+        const float3 direct = look_for_light(scene, &p, &s, &f, wo, sampler, depth, choice.x, goes_on);
         if (depth == 0)
-            result.direct += direct;
+            p.result.direct += direct;
         else
-            arriving += throughput * direct;
-        WEDGE_IF_REPLAY(record_hit(result.record + depth, hit.t, s.position, s.normal, so_far,
+            p.arriving += p.throughput * direct;
+        WEDGE_IF_REPLAY(record_hit(p.result.record + depth, hit.t, s.position, s.normal, so_far,
                                    emitted, direct, s.primitive, s.material);)
-        if (!goes_on) break;
-        const float chance = depth > 0 ? chance_to_go_on(&f, throughput) : 1.0f;
-        if (!(choice.y < chance)) break;
-        throughput /= chance;
-
-        const float2 u = draw_2d(sampler, vertex_dimension(depth, WEDGE_VERTEX_DIRECTION));
-        const float3 wi = sample_bsdf(&f, s.normal, wo, choice.y / chance, u);
-        if (!is_above(&s, wi)) break;
-        const float3 value = eval_bsdf(&f, s.normal, wo, wi, &pdf_direction);
-        if (!(pdf_direction > 0.0f)) break;
-        if (depth == 0) {
-            first = first_bounce(&f, &s, wo, wi, value, pdf_direction);
-#if WEDGE_SIGNALS > 0
-            by_lobe = choice.y < f.specular_chance;
-#endif
-            if (!(max_component(first.reflected) > 0.0f)) break;
-        } else {
-            throughput *= value * (dot(s.normal, wi) / pdf_direction);
-            if (!(max_component(throughput) > 0.0f)) break;
-        }
-
-        ray_start = s.position;
-        ray.origin = offset_origin(s.position, s.position_error, s.face_normal, wi);
-        ray.direction = wi;
-        ray.t_max = INFINITY;
-        ray.source = s.primitive;
+        if (!goes_on || !scatter(&p, &s, &f, wo, sampler, depth, choice.y)) break;
     }
-    if (max_component(arriving) > 0.0f) result.indirect = first.reflected * arriving;
-#if WEDGE_SIGNALS > 0
-    result.remains = surface < 0;
-    if (surface < 0 && lit) add_to_remainder(signals, result.direct, result.indirect);
-#endif
-#if WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS
-    /* What is black ends paths: it does not tell how bright its surroundings are. */
-    if (surface >= 0 && lit && max_component(result.albedo) > 0.0f) {
-#ifdef WEDGE_FILTER_OTHER_LIGHTS
-        add_signal(signals, surface, WEDGE_SIGNAL_OTHERS, other_lights.arriving);
-        result.filtered_direct += diffuse * other_lights.arriving;
-#endif
-#ifdef WEDGE_FILTER_HEMISPHERE
-        add_hemisphere(signals, surface, &first, arriving);
-        result.filtered_indirect = result.indirect;
-#endif
-    }
-#endif
-    return result;
+    end_path(&p);
+    return p.result;
 }
 
 #if WEDGE_SIGNALS > 0
