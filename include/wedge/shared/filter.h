@@ -76,7 +76,7 @@ WEDGE_ASSERT_SIZE(Remainder, 32);
    signals of them. One of the parts, filtered, by halves of the pixel's samples. */
 typedef struct HalfLight {
     float4 halves[2]; /* rgb, w: of the first scale, luminance with the noise that light has as it
-                         was sampled; else 0 */
+                         was sampled; else of no use */
 } HalfLight;
 WEDGE_ASSERT_SIZE(HalfLight, 32);
 
