@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/render/error_estimate.hpp"
+#include "host/render/filter_settings.hpp"
 #include "host/render/stages.hpp"
 #include "host/render/told_error.hpp"
 

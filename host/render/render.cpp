@@ -11,6 +11,7 @@
 #include "host/render/error_estimate.hpp"
 #include "host/render/film_image.hpp"
 #include "host/render/filter_layers.hpp"
+#include "host/render/filter_settings.hpp"
 #include "host/render/filtered_run.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/progressive.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/render/plan.hpp"
-#include "host/render/signal_filter.hpp"
+#include "host/render/filter_settings.hpp"
 #include "host/scene/check_scene.hpp"
 #include "wedge/error.hpp"
 

@@ -10,21 +10,6 @@
 
 namespace wedge::rendering {
 
-/// The most that a pixel gets, for each of mu. (The thesis has 100; this is a power of two.)
-inline constexpr float kSamplesPerMu = 128;
-/// With so many samples for each, what a film can count.
-inline constexpr float kLargestMu = 10000;
-
-/// Samples that every pixel starts with.
-int probe_samples(const Scene& scene, int bounces);
-
-/// Settings of the thesis (docs/method.md), one set for all scenes.
-shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options,
-                                            float mu);
-
-/// Whether mu rises until an end is met.
-bool goes_in_rounds(const RenderOptions& options);
-
 /// What is known of a signal, by pixel; empty: there is no such signal.
 struct SignalLayers {
     std::vector<float> width_px;           ///< standard deviation of the filter, as computed

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "filter_scenes.hpp"
-#include "host/render/signal_filter.hpp"
+#include "host/render/filter_settings.hpp"
 
 namespace wedge::test {
 namespace {

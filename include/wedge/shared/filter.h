@@ -138,7 +138,7 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 64);
 #define WEDGE_LIGHT_PLANES 4
 #define WEDGE_HEMISPHERE_PLANES 8
 
-/* Settings of the method; the defaults are in host/render/signal_filter.cpp. */
+/* Settings of the method; the defaults are in host/render/filter_settings.cpp. */
 typedef struct FilterSettings {
     float mu; /* bandwidth scale: larger is more samples */
     /* Widths of filters are what theory asks for over these. */
