@@ -53,7 +53,7 @@ Line other_lamps(const Scene& scene, const Plan& plan) {
     const char* name = "other lamps";
     if (plan.other_lights)
         return {name, "filtered", "all at once, on diffuse surfaces seen directly"};
-    const bool any = plan.signals == 0 && shining_power(scene) > 0;
+    const bool any = plan.signals == 0 && shines_beside_rects(scene);
     return {name, any ? "Monte Carlo" : "none",
             any ? "the method filters nothing" : "nothing shines but what is above"};
 }

@@ -26,9 +26,6 @@ std::vector<bool> used_materials(const Scene& scene) {
 /// those lights one by one costs more than it gains.
 constexpr double kLeastFilteredPower = 0.5;
 
-/// Of less than this share nothing is seen.
-constexpr double kNegligiblePower = 1e-6;
-
 /// Filters the shadows of the most powerful rectangles, each by itself, unless most light comes
 /// from elsewhere; and all light of other flat lights at once.
 void choose_filtered_lights(const Scene& scene, Plan& plan) {
@@ -61,11 +58,10 @@ void choose_filtered_lights(const Scene& scene, Plan& plan) {
 constexpr int kLightRaysAtEnds = 2;
 
 int light_rays(const Scene& scene, const Plan& plan, int bounces) {
-    double rects = 0;
-    for (const ShiningRect& rect : find_shining_rects(scene)) rects += light_power(rect.light);
-    const bool searches = shining_power(scene) > (1 + kNegligiblePower) * rects;
-    if (searches || plan.specular || has_hemisphere_light(scene, bounces)) return 1;
-    return rects > 0 || !scene.rect_lights.empty() ? kLightRaysAtEnds : 1;
+    if (shines_beside_rects(scene) || plan.specular || has_hemisphere_light(scene, bounces))
+        return 1;
+    const bool any = !scene.rect_lights.empty() || shining_power(scene) > 0;
+    return any ? kLightRaysAtEnds : 1;
 }
 
 }  // namespace

@@ -100,4 +100,10 @@ double shining_power(const Scene& scene) {
     return power;
 }
 
+bool shines_beside_rects(const Scene& scene) {
+    double rects = 0;
+    for (const ShiningRect& rect : find_shining_rects(scene)) rects += light_power(rect.light);
+    return shining_power(scene) > (1 + kNegligiblePower) * rects;
+}
+
 }  // namespace wedge::rendering

@@ -9,6 +9,9 @@
 
 namespace wedge::rendering {
 
+/// Of light with less than this share of the power of all nothing is seen.
+inline constexpr double kNegligiblePower = 1e-6;
+
 /// Triangles `triangle` and `triangle` + 1 of an instance's mesh, in world space.
 struct ShiningRect {
     std::size_t instance, triangle;
@@ -22,5 +25,8 @@ std::vector<ShiningRect> find_shining_rects(const Scene& scene);
 /// Power of all shining triangles, those of rectangles too, in units of light_power(). Textures of
 /// emission count as white.
 double shining_power(const Scene& scene);
+
+/// Whether triangles shine that are not part of such a rectangle, by more than what is seen.
+bool shines_beside_rects(const Scene& scene);
 
 }  // namespace wedge::rendering

@@ -55,6 +55,12 @@ TEST_CASE("lights_that_are_not_filtered_one_by_one_are_named") {
     scene.point_lights = {{.position = {0, 2, 0}}};
     CHECK(has(scene, "other lamps        none"));
     CHECK(has(scene, "WEDGE_POINT_LIGHTS_ALONE=1"));
+    Scene mesh = scene;
+    mesh.materials[0].emission = Vec3(1);  // of two rectangles
+    CHECK(explain(mesh, quick(1, 0)).find("other lamps        none") != std::string::npos);
+    mesh.meshes[0].triangles.pop_back();
+    mesh.meshes[0].material_of.pop_back();
+    CHECK(explain(mesh, quick(1, 0)).find("other lamps        Monte Carlo") != std::string::npos);
     scene.rect_lights.resize(5, scene.rect_lights[0]);  // four of which are filtered by themselves
     CHECK(has(scene, "other lamps        filtered"));
     CHECK_FALSE(has(scene, "WEDGE_POINT_LIGHTS_ALONE"));
