@@ -190,8 +190,8 @@ __kernel void filter_bandwidth(
     const int x = pixel % width, y = pixel / width;
     const ulong at = pixel_at(&planes, x, y);
     const float seen = fmax(film[pixel].normal.w, 1.0f);
-    const float own = reflected_brightness(film, around(x, y, width, height), width);
-    const float bright = fmax(own * own + mean_brightness * mean_brightness, 1e-30f);
+    const float here = reflected_brightness(film, around(x, y, width, height), width);
+    const float bright = fmax(here * here + mean_brightness * mean_brightness, 1e-30f);
     const RestNoise rest = rest_noise_at(unfiltered, x, y, width, height);
     float theory = 0.0f, noise = noise_samples(settings->mu, rest.of_sample / bright, 1.0f);
     for (int k = 0; k < WEDGE_SURFACES; ++k) {
