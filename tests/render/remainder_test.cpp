@@ -8,8 +8,8 @@
 namespace wedge::test {
 namespace {
 
-/// Balls as small as pixels on the ground: sides of many directions in each pixel. Every other one is
-/// black.
+/// Balls as small as pixels on the ground: sides of many directions in each pixel. Every other one
+/// is black.
 Scene make_pebbles(float ground) {
     std::vector<Mesh> meshes = {make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0)};
     for (int i = 0; i < 24; ++i)
@@ -24,17 +24,18 @@ Scene make_pebbles(float ground) {
     return scene;
 }
 
-/// Of green over the image, over seeds, as a share of the truth.
-double brightness(const Scene& scene, int bounces) {
-    constexpr int kSeeds = 6;
+/// Of green over the image, over seeds, as a share of the truth. Guarded filters would leave it to
+/// plain sampling where the remainder is wrong.
+double brightness(const Scene& scene, int bounces, float mu = 1, int seeds = 6) {
     double sum = 0;
-    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
-        RenderOptions options = filtered(1, seed);
+    for (int seed = 0; seed < seeds; ++seed) {
+        RenderOptions options = filtered(mu, uint32_t(seed));
         options.bounces = bounces;
+        options.filter = FilterMode::plain;
         sum += channel_mean(render(scene, options).image, "G");
     }
     const Image truth = render(scene, quick(4096, bounces, Sampler::lattice, 9)).image;
-    return sum / kSeeds / channel_mean(truth, "G");
+    return sum / seeds / channel_mean(truth, "G");
 }
 
 TEST_CASE("what_pixels_show_beyond_three_surfaces_is_not_lost") {
@@ -45,6 +46,17 @@ TEST_CASE("what_pixels_show_beyond_three_surfaces_is_not_lost") {
             CHECK(brightness(make_pebbles(ground), bounces) ==
                   doctest::Approx(1).epsilon(0.002).scale(1e-9));
         }
+}
+
+TEST_CASE("what_meets_nothing_is_no_remainder") {
+    Scene scene = make_pebbles(0);
+    scene.instances.erase(scene.instances.begin());  // the ground: there is nothing between pebbles
+    scene.film = {8, 8};
+    CHECK(brightness(scene, 0, 1, 16) == doctest::Approx(1).epsilon(0.004).scale(1e-9));
+}
+
+TEST_CASE("remainders_that_few_paths_have_met_are_not_dark") {
+    CHECK(brightness(make_pebbles(0), 0, 0.25f) == doctest::Approx(1).epsilon(0.004).scale(1e-9));
 }
 
 TEST_CASE("light_that_is_not_filtered_stays_in_pixels_of_many_surfaces") {
