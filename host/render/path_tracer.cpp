@@ -12,7 +12,7 @@
 namespace wedge::rendering {
 namespace {
 
-constexpr cl_uint kWorkArgs = 4;       // first_pixel, pixel_count, first_sample, sample_count
+constexpr cl_uint kWorkArgs = 4;        // first_pixel, pixel_count, first_sample, sample_count
 constexpr cl_uint kSignalBuffers = 10;  // kernels/lib/signals.clh; then probing
 
 int sampler_kind(Sampler sampler) {
