@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/render/plan.hpp"
 #include "host/render/filter_settings.hpp"
+#include "host/render/plan.hpp"
 #include "host/scene/check_scene.hpp"
 #include "wedge/error.hpp"
 
