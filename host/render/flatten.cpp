@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/parallel.hpp"
+#include "host/render/lamp_clearance.hpp"
 #include "host/render/lights.hpp"
 #include "host/render/shining_rects.hpp"
 #include "wedge/error.hpp"
@@ -178,6 +179,7 @@ FlatScene flatten(const Scene& scene) {
         append_rect(flat, rects[i], black, rect_lights[i]);
     for (const PointLight& point : scene.point_lights) lights.add_point(point);
     flat.lights = lights.take();
+    clear_lamps(flat, scene.camera.position);
     return flat;
 }
 

@@ -1,0 +1,16 @@
+// Rectangular lamps that lie in a surface, as one in a ceiling does. Rounding would decide, ray by
+// ray, which of the two is met: noise in what is seen, and light missing wherever scattered rays
+// have to find what sampling of lights does not stand for.
+#pragma once
+
+#include "host/render/flatten.hpp"
+
+namespace wedge::rendering {
+
+/// Moves lamps that lie in the plane of triangles that they overlap out of it, to the side they
+/// shine to, by what rounding may make of the two distances: some 1e-6 of the largest coordinate
+/// of lamp, triangle and camera, and at most a thousandth of the lamp's shorter side. Triangles
+/// that shine do not count. Where nothing is in a lamp's plane nothing changes.
+void clear_lamps(FlatScene& flat, const Vec3& camera);
+
+}  // namespace wedge::rendering
