@@ -124,7 +124,7 @@ inline uint camera_rays_of(__constant FilterSettings* settings, Contrast c, bool
 /* Variance, from one sample to the next, of the radiance that a signal makes of a pixel. */
 inline float radiance_variance(__global const SurfaceSum* sum, __global const float4* reflected,
                                int signal, float variance) {
-    const float3 colour = is_light(signal)  ? reflected[signal].xyz
+    const float3 colour = is_light(signal)  ? reflected[reflected_at(0u, (uint)signal)].xyz
                           : is_lobe(signal) ? sum->specular.xyz
                                             : sum->diffuse.xyz;
     const float scale = luminance(colour) / sum->position.w;
@@ -207,7 +207,7 @@ __kernel void filter_bandwidth(
                                   WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_MOST, at),
                                   WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_VARIANCE, at)};
             const Need need = signal_need(settings, lights, surface_sums + id,
-                                          reflected + id * WEDGE_SHADOW_LIGHTS, signal, found, size,
+                                          reflected + reflected_at((uint)id, 0u), signal, found, size,
                                           slanted_size, bright);
             sigmas[entry * planes.size + at] = need.sigma;
             most = fmax(most, need.theory);

@@ -1,5 +1,5 @@
 /* Axis-aligned filtering, between the sampling passes (path.cl) and the image:
-     filter_flat       unshadowed light of flat pixels, free of noise
+     filter_flat       unshadowed light of flat pixels, free of noise, and hues of shadows
      filter_means      sums over samples to what is filtered
      filter_x, filter_y   lines fitted along rows, then along columns, by Gaussian weights; after the latter, filtered
                        signals times what was not filtered, texture and unshadowed light
@@ -33,9 +33,10 @@ __kernel void filter_flat(__global const FrameParams* restrict params, __global 
     const CameraRays camera = params->camera;
     const float2 corner_px = (float2)(params->crop_x + pixel % width, params->crop_y + pixel / width);
     for (int i = 0; i < WEDGE_SHADOW_LIGHTS; ++i) {
-        const int at = pixel * WEDGE_SHADOW_LIGHTS + i;
-        corrections[at] = flat_correction(lights + i, &camera, corner_px, film + pixel, surface_sums + pixel,
-                                          reflected[at]);
+        __global const float4* sums = reflected + reflected_at((uint)pixel, (uint)i);
+        const float correction =
+            flat_correction(lights + i, &camera, corner_px, film + pixel, surface_sums + pixel, sums[0]);
+        set_corrections(corrections + (pixel * WEDGE_SHADOW_LIGHTS + i) * WEDGE_CORRECTIONS, correction, sums);
     }
 }
 
@@ -159,13 +160,33 @@ typedef struct {
     __global const Remainder* remainders;
 } PixelSums;
 
-inline float3 colour_of(const PixelSums* sums, int pixel, int entry, int signal) {
-    if (is_light(signal)) {
-        const uint at = (uint)entry * WEDGE_SHADOW_LIGHTS + (uint)signal;
-        const bool is_first = entry == pixel;
-        return sums->reflected[at].xyz * (is_first ? sums->corrections[at] : 1.0f);
+/* What means of a signal are to be multiplied by, summed over samples, by halves. */
+typedef struct {
+    float3 halves[2];
+} Colours;
+
+inline Colours colours_of_light(const PixelSums* sums, int pixel, int entry, int light) {
+    __global const float4* reflected = sums->reflected + reflected_at((uint)entry, (uint)light);
+    Colours colours;
+    colours.halves[0] = colours.halves[1] = reflected->xyz;
+    if (entry == pixel) {
+        __global const float* correction =
+            sums->corrections + (pixel * WEDGE_SHADOW_LIGHTS + light) * WEDGE_CORRECTIONS;
+        colours.halves[0] *= half_correction(correction, 0);
+        colours.halves[1] *= half_correction(correction, 1);
+    } else {
+        colours.halves[0] *= shadow_hue(reflected, 0);
+        colours.halves[1] *= shadow_hue(reflected, 1);
     }
-    return is_lobe(signal) ? sums->surfaces[entry].specular.xyz : sums->surfaces[entry].diffuse.xyz;
+    return colours;
+}
+
+inline Colours colours_of(const PixelSums* sums, int pixel, int entry, int signal) {
+    if (is_light(signal)) return colours_of_light(sums, pixel, entry, signal);
+    Colours colours;
+    colours.halves[0] = is_lobe(signal) ? sums->surfaces[entry].specular.xyz : sums->surfaces[entry].diffuse.xyz;
+    colours.halves[1] = colours.halves[0];
+    return colours;
 }
 
 /* Adds what a surface makes of its means to the parts of a group's pixels. */
@@ -182,11 +203,12 @@ inline void add_light(const Planes* planes, __global const float* places, const 
         const int pixel = first + lane;
         const int entry = surface_entry(sums->more, planes->width * planes->height, pixel, surface);
         if (entry < 0) continue;
-        const float3 colour = colour_of(sums, pixel, entry, signal) / fmax(sums->film[pixel].normal.w, 1.0f);
+        const float samples = fmax(sums->film[pixel].normal.w, 1.0f);
         float4* halves =
             light[lane * WEDGE_PARTS + (is_direct(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT)].halves;
-        halves[0].xyz += colour * (float3)(shares[0][lane], shares[1][lane], shares[2][lane]);
-        halves[1].xyz += colour * (float3)(shares[3][lane], shares[4][lane], shares[5][lane]);
+        const Colours colours = colours_of(sums, pixel, entry, signal);
+        halves[0].xyz += colours.halves[0] / samples * (float3)(shares[0][lane], shares[1][lane], shares[2][lane]);
+        halves[1].xyz += colours.halves[1] / samples * (float3)(shares[3][lane], shares[4][lane], shares[5][lane]);
     }
 }
 

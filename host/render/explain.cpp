@@ -49,6 +49,13 @@ Line shadows(const Scene& scene, const Plan& plan) {
     return {"soft shadows", "filtered", why};
 }
 
+Line hues(const Plan& plan) {
+    if (plan.shadow_lights == 0) return {"hues in shadows", "none", "no shadow is filtered"};
+    return {"hues in shadows", plan.shadow_hues ? "yes" : "none",
+            plan.shadow_hues ? "visible materials differ in hue, or have images"
+                             : "visible materials have one hue"};
+}
+
 Line other_lamps(const Scene& scene, const Plan& plan) {
     const char* name = "other lamps";
     if (plan.other_lights)
@@ -65,7 +72,7 @@ Line hemisphere(const char* name, bool is_there, const char* missing, bool filte
 }
 
 std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
-    std::vector<Line> lines{shadows(scene, plan), other_lamps(scene, plan)};
+    std::vector<Line> lines{shadows(scene, plan), hues(plan), other_lamps(scene, plan)};
     const bool sky = scene.background != Vec3(0);
     const std::string from =
         bounces > 0 ? fmt::format("{} bounces{}", bounces, sky ? " and the background" : "")

@@ -1,6 +1,7 @@
 #include "host/render/plan.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "host/render/lights.hpp"
@@ -53,6 +54,23 @@ void choose_filtered_lights(const Scene& scene, Plan& plan) {
     plan.point_lights_alone = !plan.other_lights && points > kNegligiblePower * all;
 }
 
+/// Whether visible materials differ in the hue of what they reflect in all directions, by more
+/// than rounding. Images may.
+bool differ_in_hue(const Scene& scene, const std::vector<bool>& used) {
+    constexpr float kSameHue = 1e-4f;
+    std::optional<Vec3> first;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const float most = std::max({m.diffuse.x, m.diffuse.y, m.diffuse.z});
+        if (!used[i] || !(most > 0)) continue;
+        if (m.diffuse_texture >= 0) return true;
+        const Vec3 hue = m.diffuse / most;
+        if (first && glm::length(hue - *first) > kSameHue) return true;
+        first = first.value_or(hue);
+    }
+    return false;
+}
+
 /// What remains of a path that ends at its first hit is to look at lights, which costs less than to
 /// get there. Not so where it goes on: for bounces, a lobe, or light that must be searched for.
 constexpr int kLightRaysAtEnds = 2;
@@ -91,6 +109,7 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
         plan.path_program.defines.push_back("WEDGE_LIGHT_RAYS=" + std::to_string(plan.light_rays));
     if (method == Method::aaf) {
         choose_filtered_lights(scene, plan);
+        plan.shadow_hues = plan.shadow_lights > 0 && differ_in_hue(scene, used);
         plan.hemisphere = has_hemisphere_light(scene, bounces);
     }
     plan.direct_signals = plan.shadow_lights + plan.other_lights;
@@ -98,6 +117,7 @@ Plan make_plan(const Scene& scene, Method method, int bounces) {
     if (plan.signals > 0) {
         auto& defines = plan.path_program.defines;
         defines.push_back("WEDGE_SHADOW_LIGHTS=" + std::to_string(plan.shadow_lights));
+        if (plan.shadow_hues) defines.push_back("WEDGE_SHADOW_HUES=1");
         if (plan.hemisphere) defines.push_back("WEDGE_FILTER_HEMISPHERE=1");
         if (plan.other_lights) defines.push_back("WEDGE_FILTER_OTHER_LIGHTS=1");
         if (plan.point_lights_alone) defines.push_back("WEDGE_POINT_LIGHTS_ALONE=1");

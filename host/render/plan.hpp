@@ -15,6 +15,7 @@ struct Plan {
     bool textures = false;      ///< any visible material has an image
     bool normal_maps = false;   ///< any visible material bends its normal by an image
     int shadow_lights = 0;      ///< rectangles whose shadows are filtered, each by itself
+    bool shadow_hues = false;   ///< which may vary with hue inside a pixel: materials differ in it
     bool other_lights = false;  ///< light straight from other rectangles and meshes is filtered
     bool point_lights_alone = false;  ///< not filtered, and the only lights beside shadow_lights
     bool hemisphere = false;          ///< indirect light and that of the background is filtered

@@ -25,6 +25,16 @@ int plan_parts(const Plan& plan) {
     return (plan.direct_signals > 0) + plan.hemisphere;
 }
 
+/// For each light, of a surface.
+uint64_t reflected_sums(const Plan& plan) {
+    return 1 + (plan.shadow_hues ? WEDGE_HUE_SUMS : 0);
+}
+
+/// For each light, of a pixel.
+uint64_t corrections(const Plan& plan) {
+    return plan.shadow_hues ? WEDGE_HUE_CORRECTIONS : 1;
+}
+
 /// Of a surface.
 uint64_t mean_planes(uint64_t lights, uint64_t signals) {
     return WEDGE_LIGHT_PLANES * lights + WEDGE_HEMISPHERE_PLANES * (signals - lights);
@@ -64,8 +74,9 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
                            uint64_t(plan_parts(plan))) *
              sizeof(float)},
         {"filter widths", entries * sizeof(float)},
-        {"unshadowed light", uint64_t(plan.shadow_lights) *
-                                 (surfaces * sizeof(shared::float4) + pixels * sizeof(float))},
+        {"unshadowed light",
+         uint64_t(plan.shadow_lights) * (surfaces * reflected_sums(plan) * sizeof(shared::float4) +
+                                         pixels * corrections(plan) * sizeof(float))},
         {"light before and after filters",
          pixels * (sizeof(shared::SampledLight) + sizeof(shared::Remainder) +
                    uint64_t(plan_parts(plan)) * WEDGE_SCALES * sizeof(shared::HalfLight))},
@@ -79,6 +90,8 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
       width_(uint32_t(crop.width)),
       height_(uint32_t(crop.height)),
       lights_(uint32_t(plan.shadow_lights)),
+      reflected_sums_(uint32_t(reflected_sums(plan))),
+      light_corrections_(uint32_t(corrections(plan))),
       direct_signals_(uint32_t(plan.direct_signals)),
       signals_(uint32_t(plan.signals)),
       parts_(uint32_t(plan_parts(plan))),
@@ -117,9 +130,10 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     surface_sums_ = zeros(surfaces, sizeof(shared::SurfaceSum), "surfaces of pixels");
     sums_ = zeros(2 * entries, sizeof(shared::float4), "signals");
     distances_ = zeros(entries, sizeof(shared::DistanceRange), "distances");
-    reflected_ = zeros(surfaces * lights_, sizeof(shared::float4), "unshadowed light");
-    corrections_ =
-        device_.allocate(pixels * lights_ * sizeof(float), "unshadowed light of flat pixels");
+    reflected_ =
+        zeros(surfaces * lights_ * reflected_sums_, sizeof(shared::float4), "unshadowed light");
+    corrections_ = device_.allocate(pixels * lights_ * light_corrections_ * sizeof(float),
+                                    "corrections of unshadowed light");
     unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
     remainders_ = zeros(pixels, sizeof(shared::Remainder), "remainders of pixels");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");

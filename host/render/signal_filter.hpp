@@ -77,7 +77,8 @@ class SignalFilter {
     SignalLayers read_signal(uint32_t signal);
 
     device::Device& device_;
-    uint32_t width_, height_, lights_, direct_signals_, signals_, parts_;
+    uint32_t width_, height_, lights_, reflected_sums_, light_corrections_, direct_signals_,
+        signals_, parts_;
     cl::Buffer light_list_, params_, film_;
     cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, more_, sums_, distances_,
         reflected_, corrections_, unfiltered_, remainders_;

@@ -28,9 +28,9 @@ TEST_CASE("black_parts_of_a_surface_do_not_darken_the_rest") {
     }
 }
 
-TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
-    // Stripes, dark and bright, narrower than pixels. The sun stands at 45 degrees, and slats that
-    // the camera does not see hide it from the dark ones.
+/// Stripes of two colours, narrower than pixels. The sun stands at 45 degrees, and slats that the
+/// camera does not see hide it from those of the second colour.
+Scene half_shaded_stripes(const Vec3& lit, const Vec3& shaded, double* irradiance) {
     constexpr float width = 0.02f, height = 4, far = 1000;
     constexpr float shrink = 1 - height / far;  // light that is not quite parallel
     std::vector<Mesh> meshes;
@@ -41,7 +41,7 @@ TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
             meshes.push_back(
                 make_quad({x * shrink + height, height, -2}, {0, 0, 4}, {width * shrink, 0, 0}, 0));
     }
-    Scene scene = make_scene(meshes, {lambert(0.8f), lambert(0.1f)});
+    Scene scene = make_scene(meshes, {Material{.diffuse = lit}, Material{.diffuse = shaded}});
     scene.film = {16, 16};
     scene.camera = {
         .position = {0, 50, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov_rad = 0.04f};
@@ -51,13 +51,40 @@ TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
                           .edge_v = {-side, side, 0},
                           .radiance = Vec3(radiance)}};
     const double area = double(side) * side * std::sqrt(2.0);
-    const double irradiance = radiance * area * std::sqrt(0.5) / (2.0 * far * far);
+    *irradiance = radiance * area * std::sqrt(0.5) / (2.0 * far * far);
+    return scene;
+}
+
+TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
+    double irradiance;
+    const Scene scene = half_shaded_stripes(Vec3(0.8f), Vec3(0.1f), &irradiance);
     for (FilterMode mode : {FilterMode::guarded, FilterMode::plain}) {
         RenderOptions options = filtered(4);
         options.filter = mode;
         CHECK(channel_mean(render(scene, options).image, "G") ==
               doctest::Approx(0.5 * 0.8 / double(kPi) * irradiance).epsilon(0.01).scale(1e-9));
     }
+}
+
+TEST_CASE("shadows_have_the_hue_of_what_they_fall_on") {
+    // Orange stripes in the sun, blue ones in the shade: blue light that is reflected is a quarter
+    // of the orange ones' red.
+    double irradiance;
+    const Scene scene = half_shaded_stripes({0.8f, 0.4f, 0.2f}, {0.1f, 0.3f, 0.7f}, &irradiance);
+    for (FilterMode mode : {FilterMode::guarded, FilterMode::plain})
+        for (float mu : {1.0f, 4.0f}) {
+            RenderOptions options = filtered(mu);
+            options.filter = mode;
+            const Image image = render(scene, options).image;
+            const double unit = 0.5 / double(kPi) * irradiance;
+            CAPTURE(mu);
+            CHECK(channel_mean(image, "R") ==
+                  doctest::Approx(0.8 * unit).epsilon(0.05 / mu).scale(1e-9));
+            CHECK(channel_mean(image, "G") ==
+                  doctest::Approx(0.4 * unit).epsilon(0.05 / mu).scale(1e-9));
+            CHECK(channel_mean(image, "B") ==
+                  doctest::Approx(0.2 * unit).epsilon(0.05 / mu).scale(1e-9));
+        }
 }
 
 }  // namespace

@@ -45,6 +45,31 @@ TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
     CHECK(explain(scene, bouncing).find(others) == std::string::npos);
 }
 
+TEST_CASE("hues_of_shadows_are_kept_where_materials_differ_in_hue") {
+    const auto has = [](const Scene& scene, const char* text) {
+        return explain(scene, filtered(1)).find(text) != std::string::npos;
+    };
+    const char *define = "WEDGE_SHADOW_HUES=1", *line = "hues in shadows    yes";
+    Scene scene = make_penumbra(LightProfile::uniform);
+    scene.materials = {lambert(0.5f), lambert(0.2f), lambert(0)};
+    CHECK_FALSE(has(scene, define));
+    CHECK(has(scene, "hues in shadows    none"));
+    scene.materials[1].diffuse = {0.5f, 0.4f, 0.4f};  // nothing is made of it
+    CHECK_FALSE(has(scene, define));
+    scene.instances.push_back({.mesh = 0, .material = 2});  // black has no hue
+    CHECK_FALSE(has(scene, define));
+    scene.instances.push_back({.mesh = 0, .material = 1});
+    CHECK(has(scene, define));
+    CHECK(has(scene, line));
+    scene.rect_lights.clear();
+    scene.background = Vec3(1);
+    CHECK_FALSE(has(scene, define));
+    Scene textured = make_penumbra(LightProfile::uniform);
+    textured.textures.push_back({.image = {1, 1, TextureFormat::srgb8, {255, 0, 0, 255}}});
+    textured.materials[0].diffuse_texture = 0;
+    CHECK(has(textured, define));
+}
+
 TEST_CASE("lights_that_are_not_filtered_one_by_one_are_named") {
     const auto has = [](const Scene& scene, const char* text) {
         return explain(scene, filtered(1)).find(text) != std::string::npos;
