@@ -8,7 +8,7 @@
 namespace wedge::rendering {
 
 /// Moves lamps that lie in the plane of triangles that they overlap out of it, to the side they
-/// shine to, by what rounding may make of the two distances: some 1e-6 of the largest coordinate
+/// shine to, by what rounding may make of the two distances: some 2e-6 of the largest coordinate
 /// of lamp, triangle and camera, and at most a thousandth of the lamp's shorter side. Triangles
 /// that shine do not count. Where nothing is in a lamp's plane nothing changes.
 void clear_lamps(FlatScene& flat, const Vec3& camera);
