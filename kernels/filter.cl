@@ -36,7 +36,9 @@ __kernel void filter_flat(__global const FrameParams* restrict params, __global 
         __global const float4* sums = reflected + reflected_at((uint)pixel, (uint)i);
         const float correction =
             flat_correction(lights + i, &camera, corner_px, film + pixel, surface_sums + pixel, sums[0]);
-        set_corrections(corrections + (pixel * WEDGE_SHADOW_LIGHTS + i) * WEDGE_CORRECTIONS, correction, sums);
+        __global float* to = corrections + correction_at((uint)pixel, (uint)i);
+        *to = correction;
+        keep_hues(to, sums);
     }
 }
 
@@ -160,33 +162,25 @@ typedef struct {
     __global const Remainder* remainders;
 } PixelSums;
 
-/* What means of a signal are to be multiplied by, summed over samples, by halves. */
-typedef struct {
-    float3 halves[2];
-} Colours;
-
-inline Colours colours_of_light(const PixelSums* sums, int pixel, int entry, int light) {
-    __global const float4* reflected = sums->reflected + reflected_at((uint)entry, (uint)light);
-    Colours colours;
-    colours.halves[0] = colours.halves[1] = reflected->xyz;
-    if (entry == pixel) {
-        __global const float* correction =
-            sums->corrections + (pixel * WEDGE_SHADOW_LIGHTS + light) * WEDGE_CORRECTIONS;
-        colours.halves[0] *= half_correction(correction, 0);
-        colours.halves[1] *= half_correction(correction, 1);
-    } else {
-        colours.halves[0] *= shadow_hue(reflected, 0);
-        colours.halves[1] *= shadow_hue(reflected, 1);
+inline float3 colour_of(const PixelSums* sums, int pixel, int entry, int signal) {
+    if (is_light(signal)) {
+        const float3 light = sums->reflected[reflected_at((uint)entry, (uint)signal)].xyz;
+        return entry == pixel ? light * sums->corrections[correction_at((uint)pixel, (uint)signal)] : light;
     }
-    return colours;
+    return is_lobe(signal) ? sums->surfaces[entry].specular.xyz : sums->surfaces[entry].diffuse.xyz;
 }
 
-inline Colours colours_of(const PixelSums* sums, int pixel, int entry, int signal) {
-    if (is_light(signal)) return colours_of_light(sums, pixel, entry, signal);
-    Colours colours;
-    colours.halves[0] = is_lobe(signal) ? sums->surfaces[entry].specular.xyz : sums->surfaces[entry].diffuse.xyz;
-    colours.halves[1] = colours.halves[0];
-    return colours;
+/* `share` of light, of one half, as it differs by hue. */
+inline float3 with_hue(const PixelSums* sums, int pixel, int entry, int signal, int half_index, float3 share) {
+#ifdef WEDGE_SHADOW_HUES
+    if (!is_light(signal)) return share;
+    const float3 hue = entry == pixel
+                           ? kept_hue(sums->corrections + correction_at((uint)pixel, (uint)signal), half_index)
+                           : shadow_hue(sums->reflected + reflected_at((uint)entry, (uint)signal), half_index);
+    return limited_hue(share, hue);
+#else
+    return share;
+#endif
 }
 
 /* Adds what a surface makes of its means to the parts of a group's pixels. */
@@ -203,12 +197,13 @@ inline void add_light(const Planes* planes, __global const float* places, const 
         const int pixel = first + lane;
         const int entry = surface_entry(sums->more, planes->width * planes->height, pixel, surface);
         if (entry < 0) continue;
-        const float samples = fmax(sums->film[pixel].normal.w, 1.0f);
+        const float3 colour = colour_of(sums, pixel, entry, signal) / fmax(sums->film[pixel].normal.w, 1.0f);
         float4* halves =
             light[lane * WEDGE_PARTS + (is_direct(signal) ? WEDGE_PART_DIRECT : WEDGE_PART_INDIRECT)].halves;
-        const Colours colours = colours_of(sums, pixel, entry, signal);
-        halves[0].xyz += colours.halves[0] / samples * (float3)(shares[0][lane], shares[1][lane], shares[2][lane]);
-        halves[1].xyz += colours.halves[1] / samples * (float3)(shares[3][lane], shares[4][lane], shares[5][lane]);
+        const float3 share0 = {shares[0][lane], shares[1][lane], shares[2][lane]};
+        const float3 share1 = {shares[3][lane], shares[4][lane], shares[5][lane]};
+        halves[0].xyz += colour * with_hue(sums, pixel, entry, signal, 0, share0);
+        halves[1].xyz += colour * with_hue(sums, pixel, entry, signal, 1, share1);
     }
 }
 

@@ -9,10 +9,10 @@
    cancels. The narrowest "filter" leaves surfaces to the pixel's own samples. What no filter can
    change, coverage of the pixel by surfaces, is alike in all and does not count.
 
-   All of them multiply means, of light by colour and of how much of a lamp is seen by hue, which is
-   not the mean of the product where both vary together within a surface of a pixel. Radiance as it
-   was sampled, by paths alone, has no such bias, and no other: drifts from there on add up to the
-   bias of each filter.
+   All of them multiply means, of light by colour (and of how much of a lamp is seen by hue, but for
+   what a few samples tell: lib/shadow_hue.clh), which is not the mean of the product where both vary
+   together within a surface of a pixel. Radiance as it was sampled, by paths alone, has no such bias,
+   and no other: drifts from there on add up to the bias of each filter.
 
      guard_errors   noise and drifts of each pixel
      guard_smooth   their means over neighbours along rows, by weight

@@ -126,9 +126,10 @@ void append_rect(FlatScene& flat, const RectLight& rect, uint32_t material, int 
     append_triangle(flat, {base, base + 2, base + 3}, material, light);
 }
 
-/// Also makes room for all.
+/// Also makes room for all, but for shining pairs of triangles that are moved.
 void check_counts(const Scene& scene, FlatScene& flat) {
-    uint64_t vertices = 4 * scene.rect_lights.size(), triangles = 2 * scene.rect_lights.size();
+    // Two triangles; vertices of their own where they are moved.
+    uint64_t vertices = 10 * scene.rect_lights.size(), triangles = 2 * scene.rect_lights.size();
     for (const Instance& instance : scene.instances) {
         vertices += scene.meshes[instance.mesh].positions.size();
         triangles += scene.meshes[instance.mesh].triangles.size();

@@ -7,10 +7,11 @@
 
 namespace wedge::rendering {
 
-/// Moves lamps that lie in the plane of triangles that they overlap out of it, to the side they
-/// shine to, by what rounding may make of the two distances: some 2e-6 of the largest coordinate
-/// of lamp, triangle and camera, and at most a thousandth of the lamp's shorter side. Triangles
-/// that shine do not count. Where nothing is in a lamp's plane nothing changes.
+/// Moves lamps that lie in the plane of triangles that they overlap to the side they shine to,
+/// until they are as far in front as rounding may be off: some 2e-6 of the largest coordinate of
+/// lamp, triangle and camera, and at most a thousandth of the lamp's shorter side. A lamp counts as
+/// in the plane if it is no farther from it, to either side. Triangles that shine do not count, nor
+/// do lamps beyond the 256 most powerful. Where nothing is in a lamp's plane nothing changes.
 void clear_lamps(FlatScene& flat, const Vec3& camera);
 
 }  // namespace wedge::rendering

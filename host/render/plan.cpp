@@ -18,7 +18,9 @@ std::vector<bool> used_materials(const Scene& scene) {
             used[*instance.material] = true;
             continue;
         }
-        for (uint32_t material : scene.meshes[instance.mesh].material_of) used[material] = true;
+        const std::vector<uint32_t>& materials = scene.meshes[instance.mesh].material_of;
+        if (materials.empty() && !used.empty()) used[0] = true;
+        for (uint32_t material : materials) used[material] = true;
     }
     return used;
 }

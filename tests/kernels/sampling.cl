@@ -3,6 +3,7 @@
 #include "lib/filter_weight.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
+#include "lib/shadow_hue.clh"
 
 __kernel void draw_points(int kind, uint seed, int sequences, uint strata, uint pixel, uint first_sample,
                           uint dimension, uint count, __global float2* out) {
@@ -126,4 +127,17 @@ __kernel void eval_angles(__global const float4* in, uint count, __global float4
 __kernel void eval_inverse_erf(__global const float4* in, uint count, __global float2* out) {
     const uint id = get_global_id(0);
     if (id < count) out[id] = (float2)(inverse_erf(in[id].x));
+}
+
+/* rays: light that reaches a surface if nothing hides it, w: number of the half, and 2 more where it is seen. sums: 0
+   before. out: by how much a share of both halves' light differs. */
+__kernel void eval_shadow_hues(__global const float4* rays, uint ray_count, __global float4* sums, float share,
+                               uint count, __global float4* out) {
+    if (get_global_id(0) > 0) return;
+    for (uint i = 0; i < ray_count; ++i) {
+        const int bits = (int)rays[i].w;
+        add_shadow_hue(sums, bits & 1, bits >= 2, rays[i].xyz);
+    }
+    for (uint half_index = 0; half_index < count; ++half_index)
+        out[half_index] = (float4)(limited_hue((float3)(share), shadow_hue(sums, (int)half_index)) / share, 0.0f);
 }

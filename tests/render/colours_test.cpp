@@ -30,7 +30,12 @@ TEST_CASE("black_parts_of_a_surface_do_not_darken_the_rest") {
 
 /// Stripes of two colours, narrower than pixels. The sun stands at 45 degrees, and slats that the
 /// camera does not see hide it from those of the second colour.
-Scene half_shaded_stripes(const Vec3& lit, const Vec3& shaded, double* irradiance) {
+struct Stripes {
+    Scene scene;
+    double irradiance;  ///< of what is in the sun
+};
+
+Stripes half_shaded_stripes(const Vec3& lit, const Vec3& shaded) {
     constexpr float width = 0.02f, height = 4, far = 1000;
     constexpr float shrink = 1 - height / far;  // light that is not quite parallel
     std::vector<Mesh> meshes;
@@ -51,13 +56,11 @@ Scene half_shaded_stripes(const Vec3& lit, const Vec3& shaded, double* irradianc
                           .edge_v = {-side, side, 0},
                           .radiance = Vec3(radiance)}};
     const double area = double(side) * side * std::sqrt(2.0);
-    *irradiance = radiance * area * std::sqrt(0.5) / (2.0 * far * far);
-    return scene;
+    return {scene, radiance * area * std::sqrt(0.5) / (2.0 * far * far)};
 }
 
 TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
-    double irradiance;
-    const Scene scene = half_shaded_stripes(Vec3(0.8f), Vec3(0.1f), &irradiance);
+    const auto [scene, irradiance] = half_shaded_stripes(Vec3(0.8f), Vec3(0.1f));
     for (FilterMode mode : {FilterMode::guarded, FilterMode::plain}) {
         RenderOptions options = filtered(4);
         options.filter = mode;
@@ -69,8 +72,7 @@ TEST_CASE("light_that_goes_with_colours_inside_pixels_is_kept") {
 TEST_CASE("shadows_have_the_hue_of_what_they_fall_on") {
     // Orange stripes in the sun, blue ones in the shade: blue light that is reflected is a quarter
     // of the orange ones' red.
-    double irradiance;
-    const Scene scene = half_shaded_stripes({0.8f, 0.4f, 0.2f}, {0.1f, 0.3f, 0.7f}, &irradiance);
+    const auto [scene, irradiance] = half_shaded_stripes({0.8f, 0.4f, 0.2f}, {0.1f, 0.3f, 0.7f});
     for (FilterMode mode : {FilterMode::guarded, FilterMode::plain})
         for (float mu : {1.0f, 4.0f}) {
             RenderOptions options = filtered(mu);

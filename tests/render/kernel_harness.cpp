@@ -1,9 +1,12 @@
 #include "kernel_harness.hpp"
 
+#include "wedge/shared/filter.h"
+
 namespace wedge::test {
 
 SamplingKernels::SamplingKernels() {
-    const device::ProgramRequest request{"tests/kernels/sampling.cl", {"WEDGE_SPECULAR=1"}};
+    const device::ProgramRequest request{"tests/kernels/sampling.cl",
+                                         {"WEDGE_SPECULAR=1", "WEDGE_SHADOW_HUES=1"}};
     program_ = device::build_programs(device_, std::span(&request, 1), WEDGE_SOURCE_DIR).front();
 }
 
@@ -100,6 +103,13 @@ std::vector<float> SamplingKernels::filter_weights(const std::vector<float4>& po
          run<float4>("eval_filter_weights", count, places, directions, along, pixel, count))
         weights.push_back(w.x);
     return weights;
+}
+
+std::vector<float4> SamplingKernels::shadow_hues(const std::vector<float4>& rays, float share) {
+    const cl::Buffer list =
+        device_.upload_bytes(rays.data(), rays.size() * sizeof(rays[0]), "rays");
+    const cl::Buffer sums = device_.allocate_zeros((1 + WEDGE_HUE_SUMS) * sizeof(float4), "sums");
+    return run<float4>("eval_shadow_hues", 2, list, uint32_t(rays.size()), sums, share, 2u);
 }
 
 }  // namespace wedge::test

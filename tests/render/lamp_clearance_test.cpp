@@ -80,6 +80,39 @@ TEST_CASE("lamps_that_lie_in_a_wall_are_moved_in_front_of_it") {
     CHECK(lift_of(huge) < 3e-3f);
 }
 
+/// How far in front of the wall, the scene's second mesh, a corner of the lamp is, along the normal
+/// of the larger of both.
+double height_over_wall(const Scene& scene, bool is_wall_larger) {
+    const auto flat = rendering::flatten(scene);
+    const UVec3 t = flat.triangles[2];
+    const glm::dvec3 a(flat.positions[t.x]), b(flat.positions[t.y]), c(flat.positions[t.z]);
+    const shared::float4& n = flat.lights[0].normal;
+    const glm::dvec3 normal =
+        is_wall_larger ? glm::normalize(glm::cross(b - a, c - a)) : glm::dvec3(n.x, n.y, n.z);
+    return glm::dot(glm::dvec3(origin_of(flat)) - a, normal);
+}
+
+TEST_CASE("walls_much_larger_or_smaller_than_a_lamp_count") {
+    // A plane is not known well far away from the small triangle, or the small lamp, that it is of.
+    for (float size : {0.001f, 300.0f}) {
+        Scene scene = lamp_in_wall();
+        const Vec3 center = scene.rect_lights[0].center;
+        scene.meshes[1] = wall(center - Vec3(0.4f, 0.3f, 0) * size, size, size, 1);
+        scene.rect_lights.clear();
+        scene.materials.push_back({.name = "lamp", .diffuse = Vec3(0), .emission = Vec3(1)});
+        const float side = size < 1 ? 0.6f : 0.06f;
+        scene.meshes.push_back(wall(center - Vec3(side, side, 0) / 2.0f, side, side, 2));
+        scene.instances.push_back({.mesh = 2});
+        for (int turns = 0; turns < 4; ++turns) {
+            place(scene, some_placement());
+            CAPTURE(size);
+            CAPTURE(turns);
+            CHECK(height_over_wall(scene, size > 1) > 1e-5);
+            CHECK(height_over_wall(scene, size > 1) < 2e-3);
+        }
+    }
+}
+
 TEST_CASE("lamps_that_are_clear_of_walls_stay") {
     const Scene lies = lamp_in_wall();
     Scene before = lies, through = lies, beside = lies, across = lies;
@@ -89,7 +122,12 @@ TEST_CASE("lamps_that_are_clear_of_walls_stay") {
     // The box around this has the lamp in it, but it has not.
     across.meshes[1].positions = {{1.4f, 0, -1}, {4, 0, -1}, {4, 4, -1}, {-2.02f, 4, -1}};
     across.meshes[1].triangles = {{0, 1, 2}, {0, 2, 3}};
-    for (const Scene& scene : {before, through, beside, across}) CHECK(lift_of(scene) == 0.0f);
+    int number = 0;
+    for (const Scene& scene : {before, through, beside, across}) {
+        CAPTURE(number);
+        CHECK(lift_of(scene) == 0.0f);
+        ++number;
+    }
 
     Scene panel = lies;  // what shines is no wall
     panel.materials[1].emission = Vec3(1);
@@ -132,7 +170,7 @@ TEST_CASE("light_of_a_lamp_in_a_wall_is_all_there") {
             CAPTURE(placed);
             CAPTURE(int(method));
             CHECK(channel_mean(a, "emission.R") ==
-                  doctest::Approx(channel_mean(b, "emission.R")).epsilon(1e-5).scale(1e-9));
+                  doctest::Approx(channel_mean(b, "emission.R")).epsilon(1e-3).scale(1e-9));
             CHECK(channel_mean(a, "direct.R") ==
                   doctest::Approx(channel_mean(b, "direct.R")).epsilon(1e-3).scale(1e-9));
         }

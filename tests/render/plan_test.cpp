@@ -68,6 +68,8 @@ TEST_CASE("hues_of_shadows_are_kept_where_materials_differ_in_hue") {
     textured.textures.push_back({.image = {1, 1, TextureFormat::srgb8, {255, 0, 0, 255}}});
     textured.materials[0].diffuse_texture = 0;
     CHECK(has(textured, define));
+    for (Mesh& mesh : textured.meshes) mesh.material_of.clear();  // all of the first material
+    CHECK(has(textured, define));
 }
 
 TEST_CASE("lights_that_are_not_filtered_one_by_one_are_named") {

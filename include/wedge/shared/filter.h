@@ -27,7 +27,7 @@ WEDGE_SHARED_BEGIN
 /* Where shadows may vary with hue: sums beside unshadowed light, for each light of a surface, and
    numbers that the light of a pixel's first surface is corrected by, in place of one. */
 #define WEDGE_HUE_SUMS 4
-#define WEDGE_HUE_CORRECTIONS 6
+#define WEDGE_HUE_CORRECTIONS 7
 
 /* Samples, the first of a pixel, whose shadow rays look for the nearest occluder. */
 #define WEDGE_LIGHT_PROBES 8
