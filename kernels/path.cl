@@ -27,7 +27,7 @@ inline Ray camera_ray(const CameraRays* camera, float2 film_px) {
     return ray;
 }
 
-inline PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
+WEDGE_ALWAYS_INLINE PathResult trace_path(const Scene* scene, __global const FrameParams* params, Ray ray,
                              float3 view_axis,
                              const Sampler* sampler WEDGE_SIGNAL_PARAMS WEDGE_REPLAY_PARAMS) {
     Path p;
