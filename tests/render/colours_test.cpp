@@ -89,5 +89,24 @@ TEST_CASE("shadows_have_the_hue_of_what_they_fall_on") {
         }
 }
 
+TEST_CASE("shadows_on_a_pixels_other_surfaces_have_hues_too") {
+    // A white beam high above the middle of each row of pixels: stripes are the second surface of
+    // many.
+    Scene scene = half_shaded_stripes({0.8f, 0.4f, 0.2f}, {0.1f, 0.3f, 0.7f}).scene;
+    scene.materials.push_back(lambert(0.5f));
+    for (int row = -8; row < 8; ++row) {
+        scene.meshes.push_back(
+            make_quad({-2, 10, 0.1f * (float(row) + 0.3f)}, {0, 0, 0.04f}, {4, 0, 0}, 2));
+        scene.instances.push_back({.mesh = uint32_t(scene.meshes.size() - 1)});
+    }
+    const Image truth = render(scene, quick(1024, 0)).image;
+    RenderOptions options = filtered(4);
+    options.filter = FilterMode::plain;
+    const Image image = render(scene, options).image;
+    for (const char* channel : {"R", "G", "B"})
+        CHECK(channel_mean(image, channel) ==
+              doctest::Approx(channel_mean(truth, channel)).epsilon(0.02).scale(1e-9));
+}
+
 }  // namespace
 }  // namespace wedge::test
