@@ -8,7 +8,8 @@
 
 namespace wedge::rendering {
 
-/// Triangles keep the order of the instances; those of rectangular lights come last.
+/// Triangles keep the order of the instances; those of rectangular lights come last. Rectangles
+/// that shine and lie in a surface have been moved in front of it (lamp_clearance.hpp).
 struct FlatScene {
     std::vector<Vec3> positions;   ///< of `vertices`, for the builder
     std::vector<UVec3> triangles;  ///< vertex indices, for the builder
