@@ -25,7 +25,7 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
     const float sigma = light_sigma(light);
     const float k = light->edge_u.w > 0.0f ? settings->k_gaussian : settings->k_uniform;
     const float width =
-        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing_direct,
+        shadow_filter_sigma(slopes.x, sigma, pixel, settings->narrowing_shadows,
                             settings->alpha_direct, k);
     if (!(slopes.x > 0.0f)) /* an occluder that touches */
         return (float2)(width, (float)settings->max_samples);
@@ -35,13 +35,13 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
 
 /* The thesis keeps z_min from being less than a share of the scene. Here it is kept from being less
    than where the filter is as narrow as pixels let it be: nearer ones do not add frequencies. */
-inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float2 found, float band,
-                                   float share, float pixel) {
+inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float narrowing, float2 found,
+                                   float band, float share, float pixel) {
     const float mu = settings->mu, alpha = settings->alpha_indirect;
     const float far_away = 1e6f * pixel;
     const float z_min = fmax(found.x > 0.0f ? 1.0f / found.x : far_away, band * pixel / alpha);
     const float z_max = fmax(found.y, z_min);
-    return (float2)(indirect_filter_sigma(z_min, band, pixel, settings->narrowing_indirect, alpha),
+    return (float2)(indirect_filter_sigma(z_min, band, pixel, narrowing, alpha),
                     indirect_sample_count(z_min, z_max, band, share, pixel, mu, alpha));
 }
 
@@ -49,14 +49,15 @@ inline float2 signal_bandwidth(__constant FilterSettings* settings, __global con
                                __global const SurfaceSum* sum, int signal, float2 found,
                                float pixel) {
     if (is_light(signal)) return light_bandwidth(settings, lights + signal, found, pixel);
-    if (!is_lobe(signal))
+    if (!is_lobe(signal)) {
+        const float narrowing = is_direct(signal) ? settings->narrowing_others : settings->narrowing_diffuse;
         return max_component(sum->diffuse.xyz) > 0.0f
-                   ? hemisphere_bandwidth(settings, found, WEDGE_BAND_DIFFUSE, WEDGE_SHARE_DIFFUSE,
-                                          pixel)
+                   ? hemisphere_bandwidth(settings, narrowing, found, WEDGE_BAND_DIFFUSE, WEDGE_SHARE_DIFFUSE, pixel)
                    : (float2)(0.0f);
+    }
     const float samples = sum->position.w;
     return max_component(sum->specular.xyz) > 0.0f
-               ? hemisphere_bandwidth(settings, found, sum->diffuse.w / samples,
+               ? hemisphere_bandwidth(settings, settings->narrowing_others, found, sum->diffuse.w / samples,
                                       lobe_share(sum->normal.w / samples), pixel)
                : (float2)(0.0f);
 }

@@ -134,6 +134,7 @@ __kernel void guard_smooth(__global const ScaleErrors* restrict errors,
    is chosen, some standard errors of its estimate are taken off the square of a drift. The error
    that is told has none taken off. */
 #define WEDGE_FIRST_DOUBT 2.0f
+#define WEDGE_NEXT_DOUBT 0.5f
 #define WEDGE_NO_DOUBT 0.0f
 
 /* Samples of neighbours complement each other, so that fewer products are independent than there are
@@ -207,13 +208,13 @@ inline float measured_error(float share, __global const HalfLight* own,
    than both. None is the pixel's own samples, and the bias that they share with filters does not
    count. Where that is clearly more than the noise of what was sampled (`unfiltered`), this takes
    their place, and the bias counts. `light`: by scale, `stride` apart. */
-inline Chosen choose(float doubt, ScaleErrors estimates, __global const HalfLight* light,
+inline Chosen choose(ScaleErrors estimates, __global const HalfLight* light,
                      uint stride, float4 unfiltered) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
     const float plain = estimates.plain.x, shared = shared_bias(estimates, WEDGE_PLAIN_DOUBT);
     const bool is_plain = WEDGE_CLEARLY * plain < estimates.noise.x + shared * shared;
     const float4 errors =
-        estimated_errors(estimates, is_plain ? shared : 0.0f, WEDGE_FIRST_DOUBT, doubt);
+        estimated_errors(estimates, is_plain ? shared : 0.0f, WEDGE_FIRST_DOUBT, WEDGE_NEXT_DOUBT);
     const float4 likely = likely_errors(estimates);
     const float by_scale[WEDGE_SCALES] = {errors.x, errors.y, errors.z, errors.w};
     const float told[WEDGE_SCALES] = {likely.x, likely.y, likely.z, likely.w};
@@ -234,17 +235,11 @@ inline Chosen choose(float doubt, ScaleErrors estimates, __global const HalfLigh
     return c;
 }
 
-/* Of a part. */
-inline float doubt_of(__constant FilterSettings* settings, int part) {
-    return WEDGE_DIRECT_SIGNALS > 0 && part == WEDGE_PART_DIRECT ? settings->doubt_direct
-                                                                 : settings->doubt_indirect;
-}
-
 /* `choose`, or the filter everywhere or nowhere. */
-inline Chosen choose_by_mode(__constant FilterSettings* settings, int part, ScaleErrors estimates,
+inline Chosen choose_by_mode(__constant FilterSettings* settings, ScaleErrors estimates,
                              __global const HalfLight* light, uint stride, float4 unfiltered) {
     if (settings->mode == WEDGE_FILTER_MODE_GUARDED)
-        return choose(doubt_of(settings, part), estimates, light, stride, unfiltered);
+        return choose(estimates, light, stride, unfiltered);
     const bool everywhere = settings->mode == WEDGE_FILTER_MODE_PLAIN;
     __global const HalfLight* filter = light + (WEDGE_SCALES - 1) * stride;
     const Chosen c = {(float4)(mean_of_halves(filter).xyz, 1.0f), likely_errors(estimates).w,
@@ -270,7 +265,7 @@ inline Chosen choose_part(const Guard* guard, int x, int y, int part) {
     __global const SampledLight* u = guard->unfiltered + y * guard->width + x;
     __global const float4* sums = sampled(u, (uint)part);
     const float4 mean = (sums[0] + sums[1]) / sample_count(u);
-    return choose_by_mode(guard->settings, part, estimates, guard->light + id,
+    return choose_by_mode(guard->settings, estimates, guard->light + id,
                           (uint)(stride * guard->height), mean);
 }
 

@@ -13,9 +13,9 @@ constexpr int kProbeSamples = 16, kShadowProbeSamples = WEDGE_LIGHT_PROBES;
 constexpr float kAlphaDirect = 1;       // section 3.6
 constexpr float kAlphaIndirect = 0.3f;  // section 4.5
 constexpr float kGaussian = 3;          // k of eq. 3.13
-constexpr float kUniform = 4.5;       // flat lights have side lobes; the thesis takes mu = 3 for 2
-constexpr float kDoubtDirect = 0.5f;  // of what the guard has of indirect light
-constexpr float kCameraRays = 80;     // of a pixel with an edge as high as the image is bright
+constexpr float kUniform = 4.5;  // flat lights have side lobes; the thesis takes mu = 3 for 2
+constexpr float kNarrowShadows = 1.4f, kWideDiffuse = 1.25f;  // for mu = 1
+constexpr float kCameraRays = 80;        // of a pixel with an edge as high as the image is bright
 constexpr float kLargestRadius = 0.125;  // of a filter, as a share of the film's larger side
 
 /// The longer paths are, the cheaper beside them (kernels/bandwidth.cl).
@@ -25,22 +25,18 @@ int camera_rays_at_edges(int bounces) {
 
 /// By the equations widths go with 1 / mu, and the samples a filter reaches stay as many: noise
 /// would be the same for any mu, and bias, which goes with the square of a width, hopeless where mu
-/// is small. With the square root both go with 1 / mu, as the noise that is aimed at does.
-float narrowing_indirect(float mu) {
-    return std::sqrt(mu);
-}
+/// is small. Where samples go with the square of mu, the sum of the squares of bias and noise is
+/// least for widths that go with the cube root. By measurement (docs/method.md) lamps, which few
+/// samples tell more of than of the hemisphere, are worth narrower filters than the equations ask
+/// for, and diffuse light wider ones, which the guard holds back where they do harm. Light that it
+/// knows less well, of lobes and small lamps, has less bias with the square root.
+struct Narrowing {
+    float shadows, diffuse, others;
+};
 
-/// Where samples go with the square of mu, the sum of the squares of bias and noise is least for
-/// widths that go with this root. Lights are known better than the hemisphere by as many samples:
-/// narrower filters than the equations ask for do (docs/method.md).
-float narrowing_direct(float mu) {
-    return 1.4f * std::cbrt(mu);
-}
-
-/// Of the guard. The narrower filters are than theory asks for, the less is their bias, and what
-/// seems to be one is luck.
-float benefit_of_doubt(float narrowing) {
-    return std::clamp(1 + std::log2(narrowing), 1.0f, 2.0f);
+Narrowing narrowing_at(float mu) {
+    const float root = std::cbrt(mu);
+    return {kNarrowShadows * root, root / kWideDiffuse, std::sqrt(mu)};
 }
 
 /// A power of two, which the sampler likes best.
@@ -79,8 +75,10 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
                                             float mu) {
     shared::FilterSettings s{};
     s.mu = mu;
-    s.narrowing_direct = narrowing_direct(mu);
-    s.narrowing_indirect = narrowing_indirect(mu);
+    const Narrowing narrowing = narrowing_at(mu);
+    s.narrowing_shadows = narrowing.shadows;
+    s.narrowing_diffuse = narrowing.diffuse;
+    s.narrowing_others = narrowing.others;
     s.alpha_direct = kAlphaDirect;
     s.alpha_indirect = kAlphaIndirect;
     s.k_gaussian = kGaussian;
@@ -91,8 +89,6 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
     s.least_samples = options.adaptive ? least_samples(s) : s.max_samples;
     s.mode = mode_of(options.filter);
-    s.doubt_indirect = benefit_of_doubt(s.narrowing_indirect);
-    s.doubt_direct = kDoubtDirect * s.doubt_indirect;
     s.max_radius_px =
         int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
     s.camera_rays_at_edges = camera_rays_at_edges(bounces);

@@ -87,7 +87,6 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light,
     const auto programs = device::build_programs(device, std::span(&request, 1), WEDGE_SOURCE_DIR);
     shared::FilterSettings settings{};
     settings.mode = mode;
-    settings.doubt_direct = settings.doubt_indirect = 1;
     const auto upload = [&](const auto& items, const char* what) {
         return device.upload_bytes(items.data(), items.size() * sizeof(items[0]), what,
                                    CL_MEM_READ_WRITE);
@@ -167,7 +166,7 @@ TEST_CASE("what_pixels_measure_is_their_error_in_the_mean") {
         CHECK(found > 0);
         // Which filter is taken goes by the same halves: luck that makes it look good counts, too.
         CHECK(std::abs(measured - found) < 4 * std::sqrt(squares) + 0.1 * found);
-        // Twice as bright; the guard doubts both alike here.
+        // Twice as bright.
         CHECK(direct == doctest::Approx(4 * measured).epsilon(1e-3).scale(1e-9));
     }
 }

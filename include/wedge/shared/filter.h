@@ -146,8 +146,9 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 64);
 /* Settings of the method; the defaults are in host/render/filter_settings.cpp. */
 typedef struct FilterSettings {
     float mu; /* bandwidth scale: larger is more samples */
-    /* Widths of filters are what theory asks for over these. */
-    float narrowing_direct, narrowing_indirect;
+    /* Widths of filters are what theory asks for over these: of shadows, of irradiance from the hemisphere, of lobes
+       and other lamps. */
+    float narrowing_shadows, narrowing_diffuse, narrowing_others;
     float alpha_direct; /* band limit of geometry as a share of the pixel's */
     float alpha_indirect;
     float k_gaussian,
@@ -158,10 +159,8 @@ typedef struct FilterSettings {
     int camera_rays_at_edges; /* whose contrast is the mean brightness; mu = 1 */
     int least_samples;        /* that every pixel gets, whatever its frequencies */
     int mode;                 /* WEDGE_FILTER_MODE_* */
-    /* Standard errors that are taken off the square of a drift between filters. */
-    float doubt_direct, doubt_indirect;
 } FilterSettings;
-WEDGE_ASSERT_SIZE(FilterSettings, 64);
+WEDGE_ASSERT_SIZE(FilterSettings, 60);
 
 /* What is done with what was sampled: guarded filters, filters everywhere, none. */
 #define WEDGE_FILTER_MODE_GUARDED 0
