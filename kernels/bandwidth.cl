@@ -145,13 +145,16 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
 }
 
 /* With as many as are asked for, all pixels would have the same error; the image has the least one
-   with others. A pixel's share of its square is `asked` / n, and for a given number of all samples
-   the sum of shares is least where n goes with the root of `asked` (Neyman 1934). Pixels that ask
-   for so many get them; more for a larger mu, or noise would fall more slowly than bias: */
+   with others. Where a pixel's share of its square is `asked` / n^p, the sum of shares is least, for a
+   given number of all samples, where n goes with the power 1 / (1 + p): the root, were samples
+   independent (Neyman 1934); here p is up to 1.5. Pixels that ask for so many get them; more for a
+   larger mu, or noise would fall more slowly than bias: */
 #define WEDGE_MIDDLING_SAMPLES 64.0f /* for mu = 1 */
+#define WEDGE_SHARING_POWER 0.4f
 
 inline float samples_granted(float mu, float asked) {
-    return sqrt(WEDGE_MIDDLING_SAMPLES * sqrt(mu) * asked);
+    const float middling = WEDGE_MIDDLING_SAMPLES * sqrt(mu);
+    return middling * pow(asked / middling, WEDGE_SHARING_POWER);
 }
 
 /* Width of a signal's filter, and how many samples it asks for: by theory and by noise. `bright`:
