@@ -35,8 +35,8 @@ inline float2 light_bandwidth(__constant FilterSettings* settings, __global cons
 
 /* The thesis keeps z_min from being less than a share of the scene. Here it is kept from being less
    than where the filter is as narrow as pixels let it be: nearer ones do not add frequencies. */
-inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float narrowing, float2 found,
-                                   float band, float share, float pixel) {
+inline float2 hemisphere_bandwidth(__constant FilterSettings* settings, float narrowing,
+                                   float2 found, float band, float share, float pixel) {
     const float mu = settings->mu, alpha = settings->alpha_indirect;
     const float far_away = 1e6f * pixel;
     const float z_min = fmax(found.x > 0.0f ? 1.0f / found.x : far_away, band * pixel / alpha);
@@ -49,15 +49,16 @@ inline float2 signal_bandwidth(__constant FilterSettings* settings, __global con
                                __global const SurfaceSum* sum, int signal, float2 found,
                                float pixel) {
     if (is_light(signal)) return light_bandwidth(settings, lights + signal, found, pixel);
-    if (!is_lobe(signal)) {
-        const float narrowing = is_direct(signal) ? settings->narrowing_others : settings->narrowing_diffuse;
+    const bool is_diffuse = !is_lobe(signal) && !is_direct(signal);
+    const float narrowing = is_diffuse ? settings->narrowing_diffuse : settings->narrowing_others;
+    if (!is_lobe(signal))
         return max_component(sum->diffuse.xyz) > 0.0f
-                   ? hemisphere_bandwidth(settings, narrowing, found, WEDGE_BAND_DIFFUSE, WEDGE_SHARE_DIFFUSE, pixel)
+                   ? hemisphere_bandwidth(settings, narrowing, found, WEDGE_BAND_DIFFUSE,
+                                          WEDGE_SHARE_DIFFUSE, pixel)
                    : (float2)(0.0f);
-    }
     const float samples = sum->position.w;
     return max_component(sum->specular.xyz) > 0.0f
-               ? hemisphere_bandwidth(settings, settings->narrowing_others, found, sum->diffuse.w / samples,
+               ? hemisphere_bandwidth(settings, narrowing, found, sum->diffuse.w / samples,
                                       lobe_share(sum->normal.w / samples), pixel)
                : (float2)(0.0f);
 }
@@ -142,19 +143,6 @@ inline float radiance_variance(__global const SurfaceSum* sum, __global const fl
 inline float noise_samples(float mu, float relative_variance, float pixels) {
     const float noise = WEDGE_NOISE / mu;
     return relative_variance / (fmax(pixels, 1.0f) * noise * noise);
-}
-
-/* With as many as are asked for, all pixels would have the same error; the image has the least one
-   with others. Where a pixel's share of its square is `asked` / n^p, the sum of shares is least, for a
-   given number of all samples, where n goes with the power 1 / (1 + p): the root, were samples
-   independent (Neyman 1934); here p is up to 1.5. Pixels that ask for so many get them; more for a
-   larger mu, or noise would fall more slowly than bias: */
-#define WEDGE_MIDDLING_SAMPLES 64.0f /* for mu = 1 */
-#define WEDGE_SHARING_POWER 0.4f
-
-inline float samples_granted(float mu, float asked) {
-    const float middling = WEDGE_MIDDLING_SAMPLES * sqrt(mu);
-    return middling * pow(asked / middling, WEDGE_SHARING_POWER);
 }
 
 /* Width of a signal's filter, and how many samples it asks for: by theory and by noise. `bright`:

@@ -25,11 +25,13 @@ int camera_rays_at_edges(int bounces) {
 
 /// By the equations widths go with 1 / mu, and the samples a filter reaches stay as many: noise
 /// would be the same for any mu, and bias, which goes with the square of a width, hopeless where mu
-/// is small. Where samples go with the square of mu, the sum of the squares of bias and noise is
-/// least for widths that go with the cube root. By measurement (docs/method.md) lamps, which few
-/// samples tell more of than of the hemisphere, are worth narrower filters than the equations ask
-/// for, and diffuse light wider ones, which the guard holds back where they do harm. Light that it
-/// knows less well, of lobes and small lamps, has less bias with the square root.
+/// is small. The squares of bias (w^4) and noise (1 / (n^p w^2)) have the least sum for widths w
+/// that go with n^(-p / 6), about the cube root of 1 / mu: n, the samples, goes with mu^1.4, and p
+/// is up to 1.5. By measurement (docs/method.md) shadows are worth narrower filters than the
+/// equations ask for, since few samples tell more of a lamp than of the hemisphere, and diffuse
+/// light from there wider ones, which the guard holds back where they do harm. Light that it knows
+/// less well, of lobes and of other lamps, keeps the square root, with which bias falls faster as
+/// mu rises.
 struct Narrowing {
     float shadows, diffuse, others;
 };

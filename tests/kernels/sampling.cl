@@ -102,6 +102,11 @@ __kernel void eval_shadow_bandwidth(__global const float4* in, float4 settings, 
         shadow_sample_count(p.x, p.y, p.z, p.w, settings.x, settings.y));
 }
 
+__kernel void eval_samples_granted(__global const float4* in, uint count, __global float* out) {
+    const uint id = get_global_id(0);
+    if (id < count) out[id] = samples_granted(in[id].x, in[id].y);
+}
+
 inline Places8 place8(float4 position, float4 normal, float pixel) {
     const Places8 p = {position.x, position.y, position.z, pixel, normal.x, normal.y, normal.z};
     return p;

@@ -83,6 +83,18 @@ TEST_CASE("indirect_bandwidth_has_the_limits_of_the_theory") {
     CHECK(kernels.lobe_bands({{20, 0, 0, 0}}, WEDGE_MODEL_PHONG)[0].x == doctest::Approx(7.27));
 }
 
+TEST_CASE("samples_that_are_granted_go_with_a_power_of_what_is_asked_for") {
+    SamplingKernels kernels;
+    // mu, asked: who asks for 64 sqrt(mu) gets them, who asks for 32 times as many four times.
+    const auto granted = kernels.samples_granted(
+        {{1, 64, 0, 0}, {4, 128, 0, 0}, {1, 2048, 0, 0}, {1, 2, 0, 0}, {1, 0, 0, 0}});
+    CHECK(granted[0] == doctest::Approx(64).epsilon(1e-4).scale(1e-9));
+    CHECK(granted[1] == doctest::Approx(128).epsilon(1e-4).scale(1e-9));
+    CHECK(granted[2] == doctest::Approx(256).epsilon(1e-4).scale(1e-9));
+    CHECK(granted[3] == doctest::Approx(16).epsilon(1e-4).scale(1e-9));
+    CHECK(granted[4] == 0);
+}
+
 TEST_CASE("filter_weights_are_gaussians_of_the_distance_along_the_light") {
     SamplingKernels kernels;
     const float4 up{0, 1, 0, 0};

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "filter_scenes.hpp"
+#include "host/render/filter_settings.hpp"
 #include "wedge/shared/filter.h"
 
 namespace wedge::test {
@@ -58,6 +59,7 @@ TEST_CASE("filtered_shadows_need_fewer_samples") {
 
 TEST_CASE("other_lights_gloss_and_bounces_stay_right_beside_filtered_shadows") {
     Scene scene = make_room(20);
+    // With half of these pixels filters take 0.9 % of the indirect light (docs/method.md).
     scene.film = {80, 64};
     scene.point_lights = {{.position = {0.5f, 0.8f, 0.3f}, .intensity = {0.3f, 0.5f, 0.8f}}};
     scene.materials[1].emission = {0.5f, 0.1f, 0.1f};
@@ -125,6 +127,40 @@ TEST_CASE("filtered_indirect_light_needs_a_third_of_the_samples") {
         const Image plain = render(scene, quick(threefold, 1, sampler)).image;
         CHECK(channel_rmse(image, truth, "indirect.G") < channel_rmse(plain, truth, "indirect.G"));
     }
+}
+
+/// Median over pixels of a filter's width at mu = 1 over that at mu = 8.
+double narrowing_to_8(const Scene& scene, const char* layer) {
+    RenderOptions options = filtered(1);
+    options.bounces = 1;
+    const std::vector<double> wide = channel_values(render(scene, options).image, layer);
+    options.mu = 8;
+    const std::vector<double> narrow = channel_values(render(scene, options).image, layer);
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < wide.size(); ++i)
+        if (wide[i] > 0 && narrow[i] > 0) ratios.push_back(wide[i] / narrow[i]);
+    REQUIRE(ratios.size() > 100);
+    std::nth_element(ratios.begin(), ratios.begin() + long(ratios.size() / 2), ratios.end());
+    return ratios[ratios.size() / 2];
+}
+
+TEST_CASE("filters_narrow_by_roots_of_mu") {
+    Scene room = make_room(0);
+    room.film = {32, 24};
+    CHECK(narrowing_to_8(room, "width.direct") == doctest::Approx(2).epsilon(0.02).scale(1e-9));
+    CHECK(narrowing_to_8(room, "width.indirect") == doctest::Approx(2).epsilon(0.02).scale(1e-9));
+    const auto at_8 = rendering::make_filter_settings(room, filtered(8), 8);
+    CHECK(at_8.narrowing_shadows == doctest::Approx(2.8).scale(1e-9));
+    CHECK(at_8.narrowing_diffuse == doctest::Approx(1.6).scale(1e-9));
+    Scene lit_by_mesh = make_scene(
+        {make_box(Vec3(-1), Vec3(1), true, 0), make_sphere({0, 0.5f, -0.4f}, 0.2f, 8, false, 1)},
+        {lambert(0.5f), lambert(0)});
+    lit_by_mesh.materials[1].emission = Vec3(5);
+    lit_by_mesh.film = {32, 24};
+    lit_by_mesh.camera = {
+        .position = {0, 0, 0.9f}, .target = {0.3f, -0.2f, -1}, .vertical_fov_rad = 1.4f};
+    CHECK(narrowing_to_8(lit_by_mesh, "width.direct") ==
+          doctest::Approx(std::sqrt(8)).epsilon(0.02).scale(1e-9));
 }
 
 TEST_CASE("light_does_not_leak_over_corners_or_steps") {

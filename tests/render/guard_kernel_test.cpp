@@ -166,7 +166,7 @@ TEST_CASE("what_pixels_measure_is_their_error_in_the_mean") {
         CHECK(found > 0);
         // Which filter is taken goes by the same halves: luck that makes it look good counts, too.
         CHECK(std::abs(measured - found) < 4 * std::sqrt(squares) + 0.1 * found);
-        // Twice as bright.
+        // Direct light is twice as bright: four times the mean square.
         CHECK(direct == doctest::Approx(4 * measured).epsilon(1e-3).scale(1e-9));
     }
 }
@@ -319,6 +319,43 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
     CHECK(error < 0.006);
     CHECK(measured > 0.8 * error);
     CHECK(measured < 1.2 * error);
+}
+
+/// The mean width that is taken where the noise of the mean of both halves falls by `gain` to the
+/// widest filter, whose bias has `price` times that as its square.
+Corner width_at_a_price(double price) {
+    constexpr uint32_t kSeeds = 16;
+    constexpr float kOthers = 0.1f, kWidest = 0.02f;  // standard deviations of a half
+    const double gain = 0.5 * double(kOthers * kOthers - kWidest * kWidest);
+    const auto bias = float(std::sqrt(price * gain));
+    Corner width;
+    for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+        Light light;
+        std::mt19937 random(seed);
+        std::normal_distribution<float> noise(0, 1);
+        for (int pixel = 0; pixel < kPixels; ++pixel)
+            for (int half = 0; half < 2; ++half) {
+                light.set(pixel, half, 0, 1 + 10 * kOthers * noise(random));
+                const float narrow = 1 + kOthers * noise(random);
+                for (int scale = 1; scale < WEDGE_SCALES - 1; ++scale)
+                    light.set(pixel, half, scale, narrow);
+                const float widest = 1 - bias + kWidest * noise(random);
+                light.set(pixel, half, WEDGE_SCALES - 1, widest);
+            }
+        for (const auto& pixel : run_guard(light)) {
+            width.direct += double(pixel.direct.w) / (kPixels * kSeeds);
+            width.indirect += double(pixel.indirect.w) / (kPixels * kSeeds);
+        }
+    }
+    return width;
+}
+
+TEST_CASE("drifts_between_filters_are_doubted_by_half_a_standard_error") {
+    // By luck alone the square of the drift would be twice the gain. Half of that is taken off, so
+    // that the widest filter is taken up to a price of 2.
+    const Corner cheap = width_at_a_price(1.6), dear = width_at_a_price(2.4);
+    for (double width : {cheap.direct, cheap.indirect}) CHECK(width > 0.8);
+    for (double width : {dear.direct, dear.indirect}) CHECK(width < 0.7);
 }
 
 TEST_CASE("bias_within_doubt_is_told") {

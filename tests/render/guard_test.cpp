@@ -31,7 +31,8 @@ TEST_CASE("the_guard_takes_back_filters_that_do_harm") {
 }
 
 TEST_CASE("more_samples_overrule_a_filter_that_is_too_wide") {
-    // A filter four times as wide as theory asks for, and samples enough to see that it does harm.
+    // A filter nearly twice as wide as theory asks for at mu = 1, and samples enough to see that it
+    // does harm.
     const Scene scene = make_penumbra(LightProfile::uniform);
     const Image truth = render(scene, quick(4096, 0, Sampler::sobol, 9)).image;
     RenderOptions options = filtered(0.0625f);

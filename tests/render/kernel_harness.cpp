@@ -85,6 +85,11 @@ std::vector<float2> SamplingKernels::indirect_bandwidth(const std::vector<float4
                        uint32_t(in.size()));
 }
 
+std::vector<float> SamplingKernels::samples_granted(const std::vector<float4>& in) {
+    const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "counts");
+    return run<float>("eval_samples_granted", uint32_t(in.size()), buffer, uint32_t(in.size()));
+}
+
 std::vector<float2> SamplingKernels::lobe_bands(const std::vector<float4>& in, int model) {
     const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "lobes");
     return run<float2>("eval_lobe_band", uint32_t(in.size()), buffer, cl_int(model),

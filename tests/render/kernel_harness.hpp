@@ -47,6 +47,8 @@ class SamplingKernels {
     std::vector<float2> shadow_bandwidth(const std::vector<float4>& in, float4 settings);
     /// The same of indirect light; `in`: z_min, z_max, band, pixel; `settings`: mu, alpha, share.
     std::vector<float2> indirect_bandwidth(const std::vector<float4>& in, float4 settings);
+    /// in[i]: mu, samples asked for.
+    std::vector<float> samples_granted(const std::vector<float4>& in);
     /// Band limit of lobes of exponents in[i].x and their share of the hemisphere.
     std::vector<float2> lobe_bands(const std::vector<float4>& in, int model);
     /// kernels/lib/filter_weight.clh; w of `positions`: widths. Weights of all for the first.

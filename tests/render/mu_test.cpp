@@ -51,7 +51,7 @@ TEST_CASE("filtered_indirect_light_converges_with_mu") {
     }
 }
 
-// Bias goes with the square of a width, which for lights goes with mu^-1/3: from mu = 1 to 1/4 by
+// Bias goes with the square of a width, which for shadows goes with mu^-1/3: from mu = 1 to 1/4 by
 // 2.5. With widths of mu^-1/2 it would go by 4, of 1 / mu by 16. The errors of two seeds have only
 // bias in common, so their products tell its square.
 TEST_CASE("bias_of_filtered_light_grows_as_mu_shrinks") {

@@ -146,8 +146,8 @@ WEDGE_ASSERT_SIZE(GuardedPixel, 64);
 /* Settings of the method; the defaults are in host/render/filter_settings.cpp. */
 typedef struct FilterSettings {
     float mu; /* bandwidth scale: larger is more samples */
-    /* Widths of filters are what theory asks for over these: of shadows, of irradiance from the hemisphere, of lobes
-       and other lamps. */
+    /* Widths of filters are what theory asks for at mu = 1 over these: of shadows, of irradiance
+       from the hemisphere, of what lobes reflect and light of other lamps. */
     float narrowing_shadows, narrowing_diffuse, narrowing_others;
     float alpha_direct; /* band limit of geometry as a share of the pixel's */
     float alpha_indirect;
