@@ -1,6 +1,7 @@
 // The guard's kernels on light made up for them: what they take for a filter's bias.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <tuple>
@@ -321,14 +322,14 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
     CHECK(measured < 1.2 * error);
 }
 
-/// The mean width that is taken where the noise of the mean of both halves falls by `gain` to the
-/// widest filter, whose bias has `price` times that as its square.
-Corner width_at_a_price(double price) {
+/// Mean widths that are taken, of direct and of indirect light, where the noise of the mean of both
+/// halves falls by `gain` to the widest filter, whose bias has `price` times that as its square.
+std::array<double, kParts> widths_at_a_price(double price) {
     constexpr uint32_t kSeeds = 16;
     constexpr float kOthers = 0.1f, kWidest = 0.02f;  // standard deviations of a half
     const double gain = 0.5 * double(kOthers * kOthers - kWidest * kWidest);
     const auto bias = float(std::sqrt(price * gain));
-    Corner width;
+    std::array<double, kParts> widths{};
     for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
         Light light;
         std::mt19937 random(seed);
@@ -343,19 +344,18 @@ Corner width_at_a_price(double price) {
                 light.set(pixel, half, WEDGE_SCALES - 1, widest);
             }
         for (const auto& pixel : run_guard(light)) {
-            width.direct += double(pixel.direct.w) / (kPixels * kSeeds);
-            width.indirect += double(pixel.indirect.w) / (kPixels * kSeeds);
+            widths[0] += double(pixel.direct.w) / (kPixels * kSeeds);
+            widths[1] += double(pixel.indirect.w) / (kPixels * kSeeds);
         }
     }
-    return width;
+    return widths;
 }
 
 TEST_CASE("drifts_between_filters_are_doubted_by_half_a_standard_error") {
     // By luck alone the square of the drift would be twice the gain. Half of that is taken off, so
     // that the widest filter is taken up to a price of 2.
-    const Corner cheap = width_at_a_price(1.6), dear = width_at_a_price(2.4);
-    for (double width : {cheap.direct, cheap.indirect}) CHECK(width > 0.8);
-    for (double width : {dear.direct, dear.indirect}) CHECK(width < 0.7);
+    for (double width : widths_at_a_price(1.6)) CHECK(width > 0.8);
+    for (double width : widths_at_a_price(2.4)) CHECK(width < 0.7);
 }
 
 TEST_CASE("bias_within_doubt_is_told") {
