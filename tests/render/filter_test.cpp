@@ -163,6 +163,44 @@ TEST_CASE("filters_narrow_by_roots_of_mu") {
           doctest::Approx(std::sqrt(8)).epsilon(0.02).scale(1e-9));
 }
 
+/// Standard deviation of gloss under a ceiling, which filters take noise from, over its mean.
+double noise_of_gloss(float mu) {
+    Material shiny = lambert(0);
+    shiny.specular = Vec3(0.8f);
+    shiny.exponent = 20;
+    shiny.model = SpecularModel::phong;
+    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0),
+                              make_quad({-2, 1, -2}, {4, 0, 0}, {0, 0, 4}, 1)},
+                             {shiny, lambert(0.8f)});
+    scene.background = Vec3(1);
+    scene.film = {96, 96};
+    scene.camera = {
+        .position = {0, 0.9f, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov_rad = 1};
+    RenderOptions options = filtered(mu);
+    options.filter = FilterMode::plain;
+    options.adaptive = false;
+    options.samples_per_pixel = 16;
+    options.sampler = Sampler::hash;
+    options.bounces = 1;
+    const auto first = channel_values(render(scene, options).image, "indirect.G");
+    options.seed = 1;
+    const auto second = channel_values(render(scene, options).image, "indirect.G");
+    double square = 0, sum = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        square += 0.5 * std::pow(first[i] - second[i], 2);
+        sum += 0.5 * (first[i] + second[i]);
+    }
+    return std::sqrt(square * double(first.size())) / sum;
+}
+
+TEST_CASE("filters_of_lobes_narrow_with_the_root_of_mu") {
+    // Samples are as many: noise goes with one over the width.
+    const double ratio = noise_of_gloss(32) / noise_of_gloss(4);
+    CAPTURE(ratio);
+    CHECK(ratio > 2.4);  // 2 with the cube root
+    CHECK(ratio < 3.2);
+}
+
 TEST_CASE("light_does_not_leak_over_corners_or_steps") {
     // Under an even sky, over black ground that has no end: what faces up and has nothing above it
     // receives all of the sky, what stands upright half. The filters of both are wide.
