@@ -129,9 +129,9 @@ __kernel void eval_angles(__global const float4* in, uint count, __global float4
     out[id] = (float4)(sine_cosine(v.x), arc_cosine4(v.y).x, arc_of4(v.z, v.w).x);
 }
 
-__kernel void eval_inverse_erf(__global const float4* in, uint count, __global float2* out) {
+__kernel void eval_erf_and_exp(__global const float4* in, uint count, __global float2* out) {
     const uint id = get_global_id(0);
-    if (id < count) out[id] = (float2)(inverse_erf(in[id].x));
+    if (id < count) out[id] = (float2)(inverse_erf(in[id].x), falling_exp(in[id].y));
 }
 
 /* rays: light that reaches a surface if nothing hides it, w: number of the half, and 2 more where it is seen. sums: 0

@@ -1,4 +1,4 @@
-// Sines, arcs and the inverse error function of the kernels against double precision.
+// Sines, arcs, exponentials and the inverse error function of the kernels against double precision.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST_CASE("the_inverse_error_function_undoes_the_error_function") {
     SamplingKernels kernels;
     std::vector<float4> in;
     for (int i = -kSteps + 1; i < kSteps; ++i) in.push_back({0.9999f * float(i) / kSteps, 0, 0, 0});
-    const auto found = kernels.inverse_erf(in);
+    const auto found = kernels.erf_and_exp(in);
     double worst = 0;
     for (std::size_t i = 0; i < in.size(); ++i) {
         const double y = found[i].x, slope = 2 / std::sqrt(kPi) * std::exp(-y * y);
@@ -59,6 +59,20 @@ TEST_CASE("the_inverse_error_function_undoes_the_error_function") {
         if (y != 0) worst = std::max(worst, std::abs(off / y));
     }
     CHECK(worst < 3e-6);  // beside the ends the argument itself is that coarse
+}
+
+TEST_CASE("falling_exponentials_are_precise_and_never_nothing") {
+    SamplingKernels kernels;
+    std::vector<float4> in;
+    for (int i = 0; i <= kSteps; ++i) in.push_back({0, 86.0f * float(i) / kSteps, 0, 0});
+    in.push_back({0, 1e9f, 0, 0});
+    const auto found = kernels.erf_and_exp(in);
+    double worst = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        const double truth = std::exp(-std::min(double(in[i].y), 86.0));
+        worst = std::max(worst, std::abs(found[i].y / truth - 1));
+    }
+    CHECK(worst < 3e-7);
 }
 
 }  // namespace

@@ -66,9 +66,9 @@ std::vector<float4> SamplingKernels::angles(const std::vector<float4>& in) {
     return run<float4>("eval_angles", uint32_t(in.size()), buffer, uint32_t(in.size()));
 }
 
-std::vector<float2> SamplingKernels::inverse_erf(const std::vector<float4>& in) {
+std::vector<float2> SamplingKernels::erf_and_exp(const std::vector<float4>& in) {
     const cl::Buffer buffer = device_.upload_bytes(in.data(), in.size() * sizeof(in[0]), "values");
-    return run<float2>("eval_inverse_erf", uint32_t(in.size()), buffer, uint32_t(in.size()));
+    return run<float2>("eval_erf_and_exp", uint32_t(in.size()), buffer, uint32_t(in.size()));
 }
 
 std::vector<float2> SamplingKernels::shadow_bandwidth(const std::vector<float4>& in,

@@ -39,8 +39,8 @@ class SamplingKernels {
 
     /// kernels/lib/angles.clh; `in`: turn; cosine; y, x. Sine and cosine; arc_cosine4; arc_of.
     std::vector<float4> angles(const std::vector<float4>& in);
-    /// inverse_erf of in[i].x.
-    std::vector<float2> inverse_erf(const std::vector<float4>& in);
+    /// inverse_erf of in[i].x, falling_exp of in[i].y.
+    std::vector<float2> erf_and_exp(const std::vector<float4>& in);
 
     /// kernels/lib/bandwidth.clh; `in`: s_min, s_max, light sigma, pixel; `settings`: mu, alpha, k.
     /// Filter width and sample count.
