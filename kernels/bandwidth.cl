@@ -109,7 +109,7 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
                         float mean_brightness, float least_rays) {
     if (!(contrast > 0.0f && mean_brightness > 0.0f)) return 0u;
     const float n = (float)settings->camera_rays_at_edges *
-                    pow(settings->mu * contrast / mean_brightness, 0.8f);
+                    power(settings->mu * contrast / mean_brightness, 0.8f);
     const float most =
         fmax(WEDGE_MOST_CAMERA_RAYS, WEDGE_CAMERA_RAYS_PER_PATH * (float)settings->max_samples);
     return (uint)nearest_power_of_two(clamp(n, fmin(least_rays, most), most));
@@ -118,7 +118,7 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
 /* Of a pixel with these contrasts. `is_edge`: of geometry. */
 inline uint camera_rays_of(__constant FilterSettings* settings, Contrast c, bool is_edge, float mean_brightness) {
     const float root = sqrt(settings->mu);
-    const float least = is_edge ? WEDGE_LEAST_AT_EDGES * pow(settings->mu, 0.8f) : WEDGE_LEAST_AT_COLOURS * root;
+    const float least = is_edge ? WEDGE_LEAST_AT_EDGES * power(settings->mu, 0.8f) : WEDGE_LEAST_AT_COLOURS * root;
     const uint here = camera_rays(settings, fmax(c.across, c.inside), mean_brightness, least);
     return max(here, camera_rays(settings, c.beside, mean_brightness, WEDGE_LEAST_BESIDE_EDGES * root));
 }
