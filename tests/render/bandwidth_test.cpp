@@ -126,11 +126,11 @@ TEST_CASE("surfaces_that_differ_have_no_weight_for_each_other") {
         const double a = degrees * double(kPi) / 180;
         return float4{float(std::sin(a)), float(std::cos(a)), 0, 0};
     };
-    // Nineteen degrees are one surface that is bent, 21 are two; so are levels more than two pixels
-    // apart, but for a slope of ten degrees.
+    // Nineteen degrees are one surface that is bent, 21 are two; so are levels more than half a
+    // pixel apart, but for a slope of ten degrees.
     const std::vector<float4> places = {
-        {0, 0, 0, 1},          {0.1f, 0, 0, 1},     {0.1f, 0, 0, 1},    {0.001f, 0.015f, 0, 1},
-        {0.001f, 0.03f, 0, 1}, {0.5f, 0.09f, 0, 1}, {0.5f, 0.12f, 0, 1}};
+        {0, 0, 0, 1},           {0.1f, 0, 0, 1},     {0.1f, 0, 0, 1},    {0.001f, 0.0045f, 0, 1},
+        {0.001f, 0.007f, 0, 1}, {0.5f, 0.09f, 0, 1}, {0.5f, 0.12f, 0, 1}};
     const std::vector<float4> normals = {turned(0), turned(19), turned(21), turned(0),
                                          turned(0), turned(0),  turned(0)};
     const std::vector<float> w = kernels.filter_weights(places, normals, {0, 0, 0, 0}, pixel);

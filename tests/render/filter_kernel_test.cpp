@@ -67,7 +67,7 @@ double weight(BumpyFilm& f, int a, int px, int py, int b, int qx, int qy, int si
     }
     const double ten_degrees = 10 * 3.14159265358979 / 180, least = std::cos(2 * ten_degrees);
     if (cosine < least) return 0;
-    const double over = std::abs(off) - 2 * f.place(a, WEDGE_PLACE_SIZE, px, py);
+    const double over = std::abs(off) - 0.5 * f.place(a, WEDGE_PLACE_SIZE, px, py);
     if (over >= 0 && over * over >= std::pow(std::tan(ten_degrees), 2) * r2) return 0;
     if (along_y) r2 -= d[1] * d[1];
     const double sigma = scale * std::min(double(f.sigmas.at(a * kSignals + signal, px, py)),

@@ -229,6 +229,42 @@ TEST_CASE("light_does_not_leak_over_corners_or_steps") {
     CHECK(std::min({tops, sides, ground}) > 50);
 }
 
+TEST_CASE("light_does_not_leak_over_steps_of_a_pixel") {
+    // A slab a pixel high, seen from above under an even sky: all of it is as bright as can be, the
+    // ground beside it is not.
+    constexpr float kPixel = 0.02f, kHalf = 0.45f;
+    Scene scene = make_scene({make_quad({-1e3f, 0, -1e3f}, {0, 0, 2e3f}, {2e3f, 0, 0}, 0),
+                              make_box({-kHalf, -1, -kHalf}, {kHalf, kPixel, kHalf}, false, 0)},
+                             {lambert(0.8f)});
+    scene.film = {64, 64};
+    scene.camera = {.position = {0, 100, 0},
+                    .target = {0, 0, 0},
+                    .up = {0, 0, 1},
+                    .vertical_fov_rad = 64 * kPixel / 100};
+    scene.background = Vec3(1);
+    RenderOptions options = filtered(0.25f);
+    options.filter = FilterMode::plain;
+    const Image image = render(scene, options).image;
+    const int g = image.channel("G"), height = image.channel("P.Y");
+    double sum = 0;
+    int rim = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const int beside[] = {std::max(x - 1, 0), std::max(y - 1, 0), std::min(x + 1, 63),
+                                  std::min(y + 1, 63)};
+            const auto on_slab = [&](int i, int j) {
+                return image.at(i, j, height) > 0.9999f * kPixel;
+            };
+            const bool is_rim = on_slab(x, y) && !(on_slab(beside[0], y) && on_slab(beside[2], y) &&
+                                                   on_slab(x, beside[1]) && on_slab(x, beside[3]));
+            if (is_rim) sum += image.at(x, y, g);
+            rim += is_rim;
+        }
+    REQUIRE(rim > 100);
+    CAPTURE(sum / rim);
+    CHECK(sum / rim > 0.98 * 0.8);  // 0.763 where levels may differ by two pixels
+}
+
 TEST_CASE("gloss_is_filtered_in_its_own_colour") {
     // A red ball with a blue lobe: neither colour may be multiplied with the other's light.
     Material ball;
