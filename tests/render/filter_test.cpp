@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "filter_scenes.hpp"
-#include "host/render/filter_settings.hpp"
 #include "wedge/shared/filter.h"
 
 namespace wedge::test {
@@ -127,78 +126,6 @@ TEST_CASE("filtered_indirect_light_needs_a_third_of_the_samples") {
         const Image plain = render(scene, quick(threefold, 1, sampler)).image;
         CHECK(channel_rmse(image, truth, "indirect.G") < channel_rmse(plain, truth, "indirect.G"));
     }
-}
-
-/// Median over pixels of a filter's width at mu = 1 over that at mu = 8.
-double narrowing_to_8(const Scene& scene, const char* layer) {
-    RenderOptions options = filtered(1);
-    options.bounces = 1;
-    const std::vector<double> wide = channel_values(render(scene, options).image, layer);
-    options.mu = 8;
-    const std::vector<double> narrow = channel_values(render(scene, options).image, layer);
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < wide.size(); ++i)
-        if (wide[i] > 0 && narrow[i] > 0) ratios.push_back(wide[i] / narrow[i]);
-    REQUIRE(ratios.size() > 100);
-    std::nth_element(ratios.begin(), ratios.begin() + long(ratios.size() / 2), ratios.end());
-    return ratios[ratios.size() / 2];
-}
-
-TEST_CASE("filters_narrow_by_roots_of_mu") {
-    Scene room = make_room(0);
-    room.film = {32, 24};
-    CHECK(narrowing_to_8(room, "width.direct") == doctest::Approx(2).epsilon(0.02).scale(1e-9));
-    CHECK(narrowing_to_8(room, "width.indirect") == doctest::Approx(2).epsilon(0.02).scale(1e-9));
-    const auto at_8 = rendering::make_filter_settings(room, filtered(8), 8);
-    CHECK(at_8.narrowing_shadows == doctest::Approx(2.8).scale(1e-9));
-    CHECK(at_8.narrowing_diffuse == doctest::Approx(1.6).scale(1e-9));
-    Scene lit_by_mesh = make_scene(
-        {make_box(Vec3(-1), Vec3(1), true, 0), make_sphere({0, 0.5f, -0.4f}, 0.2f, 8, false, 1)},
-        {lambert(0.5f), lambert(0)});
-    lit_by_mesh.materials[1].emission = Vec3(5);
-    lit_by_mesh.film = {32, 24};
-    lit_by_mesh.camera = {
-        .position = {0, 0, 0.9f}, .target = {0.3f, -0.2f, -1}, .vertical_fov_rad = 1.4f};
-    CHECK(narrowing_to_8(lit_by_mesh, "width.direct") ==
-          doctest::Approx(std::sqrt(8)).epsilon(0.02).scale(1e-9));
-}
-
-/// Standard deviation of gloss under a ceiling, which filters take noise from, over its mean.
-double noise_of_gloss(float mu) {
-    Material shiny = lambert(0);
-    shiny.specular = Vec3(0.8f);
-    shiny.exponent = 20;
-    shiny.model = SpecularModel::phong;
-    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0),
-                              make_quad({-2, 1, -2}, {4, 0, 0}, {0, 0, 4}, 1)},
-                             {shiny, lambert(0.8f)});
-    scene.background = Vec3(1);
-    scene.film = {96, 96};
-    scene.camera = {
-        .position = {0, 0.9f, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}, .vertical_fov_rad = 1};
-    RenderOptions options = filtered(mu);
-    options.filter = FilterMode::plain;
-    options.adaptive = false;
-    options.samples_per_pixel = 16;
-    options.sampler = Sampler::hash;
-    options.bounces = 1;
-    const auto first = channel_values(render(scene, options).image, "indirect.G");
-    options.seed = 1;
-    const auto second = channel_values(render(scene, options).image, "indirect.G");
-    double square = 0, sum = 0;
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        square += 0.5 * std::pow(first[i] - second[i], 2);
-        sum += 0.5 * (first[i] + second[i]);
-    }
-    return std::sqrt(square * double(first.size())) / sum;
-}
-
-TEST_CASE("filters_of_lobes_narrow_with_the_root_of_mu") {
-    // Samples are as many: noise goes with one over the width.
-    const double ratio = noise_of_gloss(32) / noise_of_gloss(4);
-    CAPTURE(ratio);
-    CHECK(ratio > 2.4);  // 2 with the cube root
-    CHECK(ratio < 3.2);
 }
 
 TEST_CASE("light_does_not_leak_over_corners_or_steps") {
@@ -355,76 +282,6 @@ TEST_CASE("parts_of_the_method_can_be_had_alone") {
     options.adaptive = false;
     options.samples_per_pixel = 24;
     for (double samples : channel_values(render(scene, options).image, "spp")) CHECK(samples == 24);
-}
-
-/// No shadows; but a highlight, which is not filtered.
-Scene make_highlight() {
-    Material shiny = lambert(0.3f);
-    shiny.specular = Vec3(0.4f);
-    shiny.exponent = 40;
-    shiny.model = SpecularModel::phong;
-    Scene scene = make_scene({make_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 0)}, {shiny});
-    scene.film = {48, 32};
-    scene.camera = {.position = {0, 1, 3}, .target = {0, 0, 0}, .vertical_fov_rad = 0.6f};
-    scene.rect_lights = {
-        {.center = {0, 1.5f, -2}, .edge_u = {1, 0, 0}, .edge_v = {0, 0, 1}, .radiance = Vec3(9)}};
-    return scene;
-}
-
-TEST_CASE("light_that_is_not_filtered_gets_its_samples") {
-    // Filters ask for none, but the highlight is noise.
-    const Image image = render(make_highlight(), filtered(1)).image;
-    std::vector<double> samples = channel_values(image, "spp");
-    std::sort(samples.begin(), samples.end());
-    CHECK(samples.front() == WEDGE_LIGHT_PROBES);
-    CHECK(samples.back() >= 4 * WEDGE_LIGHT_PROBES);
-    CHECK(samples[samples.size() / 4] == WEDGE_LIGHT_PROBES);  // only there
-}
-
-/// Points of light, which are not filtered, over a ground.
-Scene make_candles() {
-    Scene scene = make_scene({make_quad({-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, 0)}, {lambert(0.7f)});
-    for (int i = 0; i < 16; ++i)
-        scene.point_lights.push_back({.position = {0.2f * float(i % 4), 1.5f, 0.2f * float(i / 4)},
-                                      .intensity = Vec3(0.1f * float(1 + i % 5))});
-    scene.film = {32, 24};
-    scene.camera = {.position = {0, 2.5f, 5}, .target = {0, 0, 1}, .vertical_fov_rad = 0.5f};
-    return scene;
-}
-
-TEST_CASE("light_that_is_not_filtered_is_drawn_from_one_sequence") {
-    // As good as path tracing; with one for each half the error is a third larger.
-    const Scene scene = make_candles();
-    const Image truth = render(scene, quick(1024, 1, Sampler::lattice, 9)).image;
-    double squares = 0, plain = 0;
-    for (uint32_t seed = 0; seed < 4; ++seed) {
-        RenderOptions options = filtered(1, seed);
-        options.bounces = 1;
-        options.adaptive = false;
-        options.samples_per_pixel = 64;
-        squares += std::pow(channel_rmse(render(scene, options).image, truth, "direct.G"), 2);
-        const Image image = render(scene, quick(64, 1, Sampler::sobol, seed)).image;
-        plain += std::pow(channel_rmse(image, truth, "direct.G"), 2);
-    }
-    CHECK(std::sqrt(squares / plain) < 1.2);
-}
-
-TEST_CASE("error_of_light_that_is_not_filtered_is_told") {
-    const Scene scene = make_highlight();
-    const Image truth = render(scene, quick(1024, 1, Sampler::lattice, 9)).image;
-    for (float mu : {0.5f, 4.0f}) {
-        double told = 0, squares = 0;
-        for (uint32_t seed = 0; seed < 4; ++seed) {
-            RenderOptions options = filtered(mu, seed);
-            options.bounces = 1;
-            const Frame frame = render(scene, options);
-            told += std::pow(frame.stats.estimated_error->rmse, 2);
-            squares += std::pow(rmse(frame.image, truth), 2);
-        }
-        CAPTURE(mu);
-        CHECK(std::sqrt(told / squares) > 0.6);
-        CHECK(std::sqrt(told / squares) < 1.3);
-    }
 }
 
 TEST_CASE("what_shines_is_sampled_for_what_it_reflects") {
