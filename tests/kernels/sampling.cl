@@ -121,6 +121,12 @@ __kernel void eval_filter_weights(__global const float4* positions, __global con
     out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, along.xyz).s5);
 }
 
+/* Whether places are on one surface with that at 0, whose normal is y. */
+__kernel void eval_is_level(__global const float4* positions, float pixel, uint count, __global float* out) {
+    const uint id = get_global_id(0);
+    if (id < count) out[id] = is_level(positions[id].xyz, (float3)(0.0f, 1.0f, 0.0f), pixel) ? 1.0f : 0.0f;
+}
+
 /* in: turn; cosine; y, x. out: sine and cosine; arc_cosine4; arc_of4 */
 __kernel void eval_angles(__global const float4* in, uint count, __global float4* out) {
     const uint id = get_global_id(0);

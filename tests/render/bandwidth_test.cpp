@@ -141,6 +141,9 @@ TEST_CASE("surfaces_that_differ_have_no_weight_for_each_other") {
     CHECK(w[4] == 0.0f);
     CHECK(w[5] > 0.8f);
     CHECK(w[6] == 0.0f);
+    // Within a pixel as well; normals are looked at apart.
+    const std::vector<float> levels = kernels.levels(places, pixel);
+    for (std::size_t i = 3; i < places.size(); ++i) CHECK((levels[i] > 0) == (w[i] > 0));
 }
 
 TEST_CASE("stages_hold_each_sample_of_each_pixel_once") {

@@ -96,6 +96,13 @@ std::vector<float2> SamplingKernels::lobe_bands(const std::vector<float4>& in, i
                        uint32_t(in.size()));
 }
 
+std::vector<float> SamplingKernels::levels(const std::vector<float4>& positions, float pixel) {
+    const cl::Buffer places =
+        device_.upload_bytes(positions.data(), positions.size() * sizeof(float4), "places");
+    const auto count = uint32_t(positions.size());
+    return run<float>("eval_is_level", count, places, pixel, count);
+}
+
 std::vector<float> SamplingKernels::filter_weights(const std::vector<float4>& positions,
                                                    const std::vector<float4>& normals, float4 along,
                                                    float pixel) {

@@ -51,6 +51,9 @@ class SamplingKernels {
     std::vector<float> samples_granted(const std::vector<float4>& in);
     /// Band limit of lobes of exponents in[i].x and their share of the hemisphere.
     std::vector<float2> lobe_bands(const std::vector<float4>& in, int model);
+    /// is_level of kernels/lib/surfaces.clh, 1 or 0, of each place for one at 0 that faces y;
+    /// `pixel`: length of one in the world.
+    std::vector<float> levels(const std::vector<float4>& positions, float pixel);
     /// kernels/lib/filter_weight.clh; w of `positions`: widths. Weights of all for the first.
     std::vector<float> filter_weights(const std::vector<float4>& positions,
                                       const std::vector<float4>& normals, float4 along,
