@@ -133,7 +133,7 @@ __kernel void guard_smooth(__global const ScaleErrors* restrict errors,
 /* Where it is a matter of luck which seems better, the wider filter is the better guess: before one
    is chosen, some standard errors of its estimate are taken off the square of a drift: two of that to
    the narrowest filter, as told by its spread over pixels, half of one of those between filters, as told
-   by their noise (by measurement, docs/method.md). The error that is told has none taken off. */
+   by their noise (by measurement, docs/tried.md). The error that is told has none taken off. */
 #define WEDGE_FIRST_DOUBT 2.0f
 #define WEDGE_NEXT_DOUBT 0.5f
 #define WEDGE_NO_DOUBT 0.0f

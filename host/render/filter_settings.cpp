@@ -27,7 +27,7 @@ int camera_rays_at_edges(int bounces) {
 /// would be the same for any mu, and bias, which goes with the square of a width, hopeless where mu
 /// is small. The squares of bias (w^4) and noise (1 / (n^p w^2)) have the least sum for widths w
 /// that go with n^(-p / 6), about the cube root of 1 / mu: n, the samples, goes with mu^1.4, and p
-/// is up to 1.5. By measurement (docs/method.md) shadows are worth narrower filters than the
+/// is up to 1.5. By measurement (docs/tried.md) shadows are worth narrower filters than the
 /// equations ask for, since few samples tell more of a lamp than of the hemisphere, and diffuse
 /// light from there wider ones, which the guard holds back where they do harm. Light that it knows
 /// less well, of lobes and of other lamps, keeps the square root, with which bias falls faster as

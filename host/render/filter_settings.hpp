@@ -12,7 +12,7 @@ inline constexpr float kSamplesPerMu = 128;
 /// With so many samples for each, what a film can count.
 inline constexpr float kLargestMu = 10000;
 
-/// Settings of the thesis (docs/method.md), one set for all scenes.
+/// Settings of the thesis (docs/filtering.md), one set for all scenes.
 shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options,
                                             float mu);
 

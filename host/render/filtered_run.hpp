@@ -1,4 +1,4 @@
-// Probe, measure, sample, filter (docs/method.md): once, twice where mu is large, or in rounds of
+// Probe, measure, sample, filter (docs/filtering.md): once, twice where mu is large, or in rounds of
 // rising mu until time is over or the error is small enough.
 #pragma once
 

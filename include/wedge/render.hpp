@@ -28,7 +28,7 @@ const char* to_string(Sampler sampler);
 Sampler parse_sampler(const std::string& name, const std::string& option);
 
 /// `mc`: plain path tracing, unbiased. `aaf`: soft shadows and indirect light are sampled as
-/// densely as their frequencies ask for, and filtered (docs/method.md); all else as `mc`.
+/// densely as their frequencies ask for, and filtered (docs/filtering.md); all else as `mc`.
 enum class Method { mc, aaf };
 
 /// What `aaf` does with what it sampled: filters where a guard lets it, filters as the papers do,

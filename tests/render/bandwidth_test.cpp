@@ -60,7 +60,7 @@ TEST_CASE("indirect_bandwidth_is_that_of_the_thesis") {
         const auto found = kernels.indirect_bandwidth(in, {mu, float(alpha), float(share), 0});
         for (std::size_t i = 0; i < in.size(); ++i) {
             const double z_min = in[i].x, z_max = in[i].y, band = in[i].z, d = in[i].w;
-            // Eqs. 4.15 and 4.18; the width as 1 / (2 Omega_x) (docs/method.md).
+            // Eqs. 4.15 and 4.18; the width as 1 / (2 Omega_x) (docs/filtering.md).
             const double omega_x = mu * std::min(band / z_min, alpha / d);
             const double n = share * std::pow(mu * band * d / z_min + alpha, 2) * band * band *
                              std::pow(1 + mu * z_max / z_min, 2);

@@ -53,7 +53,7 @@ struct BumpyFilm : FilterFilm {
     }
 };
 
-/// Weight of surface b of pixel (qx, qy) for surface a of (px, py); docs/method.md.
+/// Weight of surface b of pixel (qx, qy) for surface a of (px, py); docs/filtering.md.
 double weight(BumpyFilm& f, int a, int px, int py, int b, int qx, int qy, int signal, double scale,
               bool along_y) {
     if (!(f.place(b, WEDGE_PLACE_SIZE, qx, qy) > 0)) return 0;

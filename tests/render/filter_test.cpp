@@ -58,7 +58,7 @@ TEST_CASE("filtered_shadows_need_fewer_samples") {
 
 TEST_CASE("other_lights_gloss_and_bounces_stay_right_beside_filtered_shadows") {
     Scene scene = make_room(20);
-    // With half of these pixels filters take 0.9 % of the indirect light (docs/method.md).
+    // With half of these pixels filters take 0.9 % of the indirect light.
     scene.film = {80, 64};
     scene.point_lights = {{.position = {0.5f, 0.8f, 0.3f}, .intensity = {0.3f, 0.5f, 0.8f}}};
     scene.materials[1].emission = {0.5f, 0.1f, 0.1f};
