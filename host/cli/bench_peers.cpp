@@ -4,14 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "bench/converge/agree.hpp"
 #include "bench/converge/session.hpp"
 #include "bench/peers/scene_export.hpp"
-#include "host/cli/asset_paths.hpp"
+#include "host/cli/bench_options.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/interrupt.hpp"
 #include "host/cli/messages.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
@@ -20,27 +20,14 @@ namespace wedge::cli {
 namespace {
 
 /// As typed; what is left out comes from Config.
-struct PeersArguments {
-    std::vector<std::string> scenes, renderers{"mitsuba"}, methods{"mc-sobol", "aaf"};
-    std::vector<std::string> budgets, asset_paths;
-    std::string size, folder, references, device, kernel_dir, python = "python3", title;
-    std::optional<int> seeds, bounces, reference_spp, reference_limit;
+struct PeersArguments : MeasuringArguments {
+    PeersArguments() { methods = {"mc-sobol", "aaf"}; }
+    std::vector<std::string> scenes, renderers{"mitsuba"};
+    std::string size, python = "python3", title;
+    std::optional<int> bounces, reference_limit;
     double reference_time_s = converge::kReferenceTime_s;
-    bool check = false, export_only = false, any_build = false;
+    bool check = false, export_only = false;
 };
-
-std::string command_line(const PeersArguments& a) {
-    std::string text = "wedge bench peers";
-    for (const std::string& scene : a.scenes) text += " " + scene;
-    text += fmt::format(" --renderers {} --methods {}", fmt::join(a.renderers, ","),
-                        fmt::join(a.methods, ","));
-    for (const std::string& budgets : a.budgets) text += " --budgets " + budgets;
-    if (a.seeds) text += fmt::format(" --seeds {}", *a.seeds);
-    if (!a.size.empty()) text += " --size " + a.size;
-    if (a.bounces) text += fmt::format(" --bounces {}", *a.bounces);
-    if (a.reference_spp) text += fmt::format(" --reference-spp {}", *a.reference_spp);
-    return text;
-}
 
 void require_peers(const std::vector<std::string>& names) {
     for (const std::string& name : names)
@@ -50,33 +37,26 @@ void require_peers(const std::vector<std::string>& names) {
                                     converge::peer_names()));
 }
 
-converge::Config make_config(const PeersArguments& a) {
+converge::Config make_config(const PeersArguments& a, const std::string& command) {
     require_peers(a.renderers);
     converge::Config config;
     config.scenes = a.scenes;
     config.methods = a.methods;
     config.methods.insert(config.methods.end(), a.renderers.begin(), a.renderers.end());
-    for (const std::string& text : a.budgets) converge::parse_budgets(text, config.budgets);
-    if (a.seeds) config.seeds = *a.seeds;
     if (!a.size.empty()) config.size = a.size;
     if (a.bounces) config.bounces = *a.bounces;
-    if (a.reference_spp) config.reference_spp = *a.reference_spp;
     if (a.reference_limit) config.reference_limit = *a.reference_limit;
     config.reference_time_s = a.reference_time_s;
     // Samples of the check have to be independent, for its variances are those of such.
     if (a.check) config.reference_sampler = Sampler::hash;
-    config.folder = a.folder;
+    config.python = a.python;
+    config.title = a.title.empty() ? "Beside other renderers" : a.title;
+    config.command = command;
+    take_measuring_arguments(a, config);
     if (config.folder.empty())
         config.folder = a.scenes.size() == 1
                             ? "peers-" + std::filesystem::path(a.scenes[0]).stem().string()
                             : std::string("peers");
-    config.references = a.references;
-    config.device = a.device;
-    config.kernel_dir = a.kernel_dir;
-    config.python = a.python;
-    config.any_build = a.any_build;
-    config.title = a.title.empty() ? "Beside other renderers" : a.title;
-    config.command = command_line(a);
     converge::complete(config);
     return config;
 }
@@ -103,22 +83,16 @@ void check_all(const converge::Config& config, const LoadOptions& load) {
     if (!all) throw Error(ErrorKind::bad_input, "the renderers do not agree; see above");
 }
 
-void run(const PeersArguments& arguments) {
-    converge::Config config = make_config(arguments);
-    const LoadOptions load = load_options(arguments.asset_paths);
-    const InterruptScope interrupt;
-    config.stop = &InterruptScope::requested();
-    try {
+void run(const PeersArguments& arguments, const std::string& command) {
+    converge::Config config = make_config(arguments, command);
+    measure_until_stopped(config, arguments, [&](const LoadOptions& load) {
         if (arguments.export_only) return export_all(config, load);
         if (arguments.check) return check_all(config, load);
         const converge::Outcome outcome = converge::converge(config, load, {}, say);
         for (const std::string& warning : outcome.warnings) log_warning(warning);
         fmt::print("{}\n{}\n", outcome.json.string(), outcome.report.string());
         std::fflush(stdout);
-    } catch (const converge::Stopped&) {
-        say("stopped; the same command goes on from here");
-        throw Interrupted{};
-    }
+    });
 }
 
 }  // namespace
@@ -130,20 +104,12 @@ void register_bench_peers(CLI::App& bench) {
     command->add_flag("--check", a->check,
                       "Compare converged images only: do the renderers compute the same?");
     command->add_flag("--export", a->export_only, "Write the scenes for other renderers only");
-    command
-        ->add_option("--renderers", a->renderers,
-                     "Separated by commas: " + converge::peer_names() + "; default: mitsuba")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    command
-        ->add_option("--methods", a->methods,
-                     "Of this program, as for `bench converge`; default: mc-sobol,aaf")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    command
-        ->add_option("--budgets", a->budgets,
-                     "Ladder, as for `bench converge`: spp=4,16,64, mu=0.5,1,2 or s=1,2,4")
-        ->allow_extra_args(false);
+    add_list(*command, "--renderers", a->renderers,
+             "Separated by commas: " + converge::peer_names() + "; default: mitsuba");
+    add_list(*command, "--methods", a->methods,
+             "Of this program, as for `bench converge`; default: mc-sobol,aaf");
+    add_budgets(*command, *a,
+                "Ladder, as for `bench converge`: spp=4,16,64, mu=0.5,1,2 or s=1,2,4");
     command->add_option("--seeds", a->seeds, "Runs of each; default: 3");
     command->add_option("--size", a->size,
                         "Film as WIDTHxHEIGHT, as its largest side, or full, in px; default: 192");
@@ -157,16 +123,10 @@ void register_bench_peers(CLI::App& bench) {
     command->add_option("--references", a->references,
                         "Folder of converged images, to share them; default: that of --output");
     command->add_option("--title", a->title, "Of the report");
-    command->add_option("--asset-path", a->asset_paths, kAssetPathHelp)
-        ->type_name("DIR")
-        ->allow_extra_args(false);
     command->add_option("--python", a->python,
                         "Python that has the other renderers; default: python3");
-    command->add_option("--device", a->device, "Index, part of a name, cpu or gpu");
-    command->add_option("--kernel-dir", a->kernel_dir, "Read kernels from this source tree");
-    command->add_flag("--any-build", a->any_build,
-                      "Take finished runs of other builds of the program too");
-    command->callback([a] { run(*a); });
+    add_measuring_options(*command, *a);
+    command->callback([a, command] { run(*a, command_text(*command)); });
 }
 
 }  // namespace wedge::cli
