@@ -131,7 +131,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     PathSettings settings = make_path_settings(scene, options);
     device::Device device(options.device);
     check_local_size(device, options.local_size);
-    device::self_test(device);
+    device::self_test(device, settings.kernel_dir);
 
     Frame frame;
     frame.stats.device = device.info();

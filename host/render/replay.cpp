@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "host/device/program.hpp"
+#include "host/device/self_test.hpp"
 #include "host/render/device_scene.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/plan.hpp"
@@ -57,6 +58,7 @@ std::string replay_pixel(const Scene& scene, const RenderOptions& options, int x
             fmt::format("replaying {} samples is too much to read; ask for at most {} with --spp",
                         samples, kMaxReplaySamples));
     device::Device device(options.device);
+    device::self_test(device, options.kernel_dir);
     RenderStats stats;
     rendering::PathTracer tracer(device, scene, settings,
                                  rendering::make_plan(scene, Method::mc, settings.bounces), stats,

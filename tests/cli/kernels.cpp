@@ -44,5 +44,25 @@ TEST_CASE("a_kernel_that_does_not_build_gives_the_log_and_exit_code_4") {
     CHECK(!bench.has("out.exr"));
 }
 
+TEST_CASE("structures_that_changed_since_the_program_was_built_are_noticed") {
+    const Workbench bench;
+    write_room(bench);
+    copy_kernels(bench);
+    const std::string name = "tree/include/wedge/shared/frame.h";
+    std::string text = bench.read(name);
+    const std::string member = "uint seed;";
+    REQUIRE(text.find(member) != std::string::npos);
+    bench.write(name, text.replace(text.find(member), member.size(), "uint stray, seed;"));
+    for (const bool replay : {false, true}) {
+        std::vector<std::string> arguments = {"render", "room.json", "--kernel-dir", "tree"};
+        for (const char* word : {replay ? "--pixel" : "-o", replay ? "3,4" : "out.exr"})
+            arguments.push_back(word);
+        const ProcessResult result = bench.wedge(arguments);
+        CAPTURE(result.err);
+        CHECK(result.exit_code == 4);
+        CHECK(result.err_has("layout of FrameParams"));
+    }
+}
+
 }  // namespace
 }  // namespace wedge::test

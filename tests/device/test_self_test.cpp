@@ -37,10 +37,10 @@ TEST_CASE("self_test_passes_and_its_success_is_remembered") {
     const ScopedVariable folder("WEDGE_CACHE_DIR", cache.path().string());
     const ScopedVariable on("WEDGE_CACHE", "1");
     Device device;
-    CHECK(self_test(device) == true);
-    CHECK(self_test(device) == false);
+    CHECK(self_test(device, "") == true);
+    CHECK(self_test(device, "") == false);
     const ScopedVariable off("WEDGE_CACHE", "0");
-    CHECK(self_test(device) == true);
+    CHECK(self_test(device, "") == true);
 }
 
 TEST_CASE("self_test_notices_wrong_arithmetic_comparison_index_and_layout") {
