@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "bench/converge/html.hpp"
+#include "host/base/srgb.hpp"
 #include "host/image/codec.hpp"
-#include "host/image/tone.hpp"
 
 namespace wedge::converge {
 namespace {
@@ -51,8 +51,7 @@ Picture developed(const Image& image, float exposure) {
     for (std::size_t i = 0; i < image.pixels.size(); i += stride)
         for (int c : rgb)
             picture.rgb.push_back(
-                (unsigned char)(image::srgb_encode(image.pixels[i + std::size_t(c)] * gain) * 255 +
-                                0.5f));
+                (unsigned char)(srgb_encode(image.pixels[i + std::size_t(c)] * gain) * 255 + 0.5f));
     return picture;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/base/srgb.hpp"
 #include "wedge/image_io.hpp"
 
 namespace wedge::peers {
@@ -15,10 +16,6 @@ namespace {
 constexpr double kTexelOfSigma = 1.0 / 40;
 constexpr int kLeastSide = 64, kLargestSide = 2048;
 
-double decode_srgb(double v) {  // IEC 61966-2-1
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 Vec3 texel(const TextureImage& image, std::size_t index) {
     Vec3 value;
     for (int c = 0; c < 3; ++c) {
@@ -27,8 +24,8 @@ Vec3 texel(const TextureImage& image, std::size_t index) {
                         sizeof(float));
             continue;
         }
-        const double v = image.texels[4 * index + std::size_t(c)] / 255.0;
-        value[c] = float(image.format == TextureFormat::srgb8 ? decode_srgb(v) : v);
+        const float v = float(image.texels[4 * index + std::size_t(c)]) / 255.0f;
+        value[c] = image.format == TextureFormat::srgb8 ? srgb_decode(v) : v;
     }
     return value;
 }

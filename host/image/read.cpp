@@ -3,9 +3,9 @@
 #include <string>
 
 #include "host/base/parallel.hpp"
+#include "host/base/srgb.hpp"
 #include "host/image/codec.hpp"
 #include "host/image/rgba_channels.hpp"
-#include "host/image/tone.hpp"
 #include "wedge/image_io.hpp"
 
 namespace wedge {
@@ -39,7 +39,7 @@ void decode_srgb(Image& image) {
             for (std::size_t c = 0; c < stride; ++c)
                 if (int(c) != alpha) {
                     float& value = image.pixels[i * stride + c];
-                    value = image::srgb_decode(value);
+                    value = srgb_decode(value);
                 }
     });
 }

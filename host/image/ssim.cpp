@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/base/parallel.hpp"
+#include "host/base/srgb.hpp"
 #include "host/image/metrics.hpp"
 #include "host/image/tone.hpp"
 

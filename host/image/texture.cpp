@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/base/srgb.hpp"
 #include "host/image/codec.hpp"
 #include "host/image/rgba_channels.hpp"
-#include "host/image/tone.hpp"
 #include "wedge/image_io.hpp"
 #include "wedge/log.hpp"
 #include "wedge/shared/radiance.h"
@@ -49,7 +49,7 @@ OddTexels fill_floats(TextureImage& texture, const DecodedImage& decoded, std::a
             if (!std::isfinite(value))
                 texel[c] = 0;
             else
-                texel[c] = std::clamp(decode_srgb && c < 3 ? image::srgb_decode(value) : value,
+                texel[c] = std::clamp(decode_srgb && c < 3 ? srgb_decode(value) : value,
                                       -WEDGE_LARGEST_RADIANCE, WEDGE_LARGEST_RADIANCE);
         }
         odd.non_finite += finite ? 0 : 1;

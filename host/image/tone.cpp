@@ -10,16 +10,6 @@
 namespace wedge {
 namespace image {
 
-float srgb_encode(float linear) {
-    if (!(linear > 0)) return 0;  // NaN too
-    if (linear >= 1) return 1;
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-float srgb_decode(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 /// Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit to the ACES reference
 /// transform.
 static float narkowicz_filmic(float x) {

@@ -1,15 +1,9 @@
-// Tone curves and the sRGB transfer function, on single values.
+// Tone curves, on single values.
 #pragma once
 
 #include "wedge/image_io.hpp"
 
 namespace wedge::image {
-
-/// Linear light to the sRGB code value (IEC 61966-2-1), both [0, 1]. Clamps; NaN gives 0.
-float srgb_encode(float linear);
-
-/// The sRGB code value to linear light, both [0, 1].
-float srgb_decode(float encoded);
 
 /// Radiance (any value) to displayed linear light in [0, 1]. NaN and negative values give 0.
 float apply_tone_curve(ToneCurve curve, float radiance);

@@ -10,6 +10,7 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/parallel.hpp"
+#include "host/base/srgb.hpp"
 #include "host/image/codec.hpp"
 #include "host/image/tone.hpp"
 #include "wedge/error.hpp"
@@ -32,7 +33,7 @@ void require_pixels(const fs::path& file, const Image& image) {
 }
 
 uint8_t to_8_bits(float display_linear) {
-    return uint8_t(image::srgb_encode(display_linear) * 255 + 0.5f);
+    return uint8_t(srgb_encode(display_linear) * 255 + 0.5f);
 }
 
 void require_folder(const fs::path& file) {

@@ -1,17 +1,11 @@
 #include "host/render/device_scene.hpp"
 
-#include <cmath>
 #include <cstring>
+
+#include "host/base/srgb.hpp"
 
 namespace wedge::rendering {
 namespace {
-
-constexpr std::size_t kSrgbTable = 256;  // WEDGE_SRGB_TABLE in kernels/lib/texture.clh
-
-/// IEC 61966-2-1.
-float srgb_to_linear(float x) {
-    return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
-}
 
 int device_format(TextureFormat format) {
     switch (format) {
@@ -32,13 +26,13 @@ struct TexelData {
 
 TexelData pack_textures(const std::vector<Texture>& textures) {
     TexelData data;
-    std::size_t size = kSrgbTable;
+    std::size_t size = WEDGE_SRGB_TABLE;
     for (const Texture& t : textures) size += t.image.texels.size() / sizeof(float);
     data.texels.resize(size);
-    for (std::size_t i = 0; i < kSrgbTable; ++i)
-        data.texels[i] = srgb_to_linear(float(i) / float(kSrgbTable - 1));
+    for (std::size_t i = 0; i < WEDGE_SRGB_TABLE; ++i)
+        data.texels[i] = srgb_decode(float(i) / float(WEDGE_SRGB_TABLE - 1));
 
-    std::size_t offset = kSrgbTable;
+    std::size_t offset = WEDGE_SRGB_TABLE;
     for (const Texture& t : textures) {
         std::memcpy(data.texels.data() + offset, t.image.texels.data(), t.image.texels.size());
         shared::TextureInfo info{};

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <functional>
 
+#include "host/base/srgb.hpp"
 #include "host/image/metrics.hpp"
-#include "host/image/tone.hpp"
 
 using namespace wedge;
 using namespace wedge::image;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "host/base/srgb.hpp"
 #include "host/image/bitmap_font.hpp"
 #include "host/image/codec.hpp"
 #include "host/image/color_map.hpp"

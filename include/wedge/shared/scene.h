@@ -39,6 +39,9 @@ WEDGE_ASSERT_SIZE(SurfaceMaterial, 64);
 #define WEDGE_TEXTURE_LINEAR8 1
 #define WEDGE_TEXTURE_FLOAT32 2
 
+/* sRGB bytes become linear by a table, so many numbers before all texels. */
+#define WEDGE_SRGB_TABLE 256
+
 typedef struct TextureInfo {
     uint offset; /* of the first texel, in units of 4 bytes, in the texel buffer */
     int width, height;
