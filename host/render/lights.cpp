@@ -4,6 +4,8 @@
 #include <numbers>
 #include <utility>
 
+#include "host/scene/lights.hpp"
+
 namespace wedge::rendering {
 namespace {
 
@@ -19,7 +21,7 @@ double gaussian_share(double sigma) {
 
 /// Mean of exp(-r^2 / (2 sigma^2)) along an edge.
 double gaussian_mean(double sigma) {
-    return sigma * std::sqrt(2.0 * double(kPi)) * gaussian_share(sigma);
+    return sigma * std::sqrt(2 * std::numbers::pi) * gaussian_share(sigma);
 }
 
 /// Variance and fourth moment about its middle of a profile along an edge, as shares of the edge's
@@ -55,11 +57,15 @@ double luminance(const Vec3& c) {
 }
 
 double light_power(const RectLight& rect) {
-    const double u = glm::length(rect.edge_u), v = glm::length(rect.edge_v);
-    double mean = 1;
-    if (rect.profile == LightProfile::gaussian)
-        mean = gaussian_mean(rect.sigma / u) * gaussian_mean(rect.sigma / v);
-    return u * v * mean * double(kPi) * luminance(rect.radiance);
+    return scene::power_per_radiance(rect) * luminance(rect.radiance);
+}
+
+double light_power(const PointLight& point) {
+    return 4 * std::numbers::pi * luminance(point.intensity);
+}
+
+double light_power(double area, const Vec3& radiance) {
+    return std::numbers::pi * area * luminance(radiance);
 }
 
 int LightList::add(shared::Light light, double power) {
@@ -107,7 +113,7 @@ int LightList::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const M
     light.kind = WEDGE_LIGHT_TRIANGLE;
     light.emission_texture = material.emission_texture;
     light.primitive = primitive;
-    return add(light, area * double(kPi) * luminance(material.emission));
+    return add(light, light_power(area, material.emission));
 }
 
 int LightList::add_point(const PointLight& point) {
@@ -116,7 +122,7 @@ int LightList::add_point(const PointLight& point) {
     light.radiance = to_float4(point.intensity, 0);
     light.kind = WEDGE_LIGHT_POINT;
     light.emission_texture = -1;
-    return add(light, 4 * double(kPi) * luminance(point.intensity));
+    return add(light, light_power(point));
 }
 
 std::vector<shared::Light> LightList::take() {

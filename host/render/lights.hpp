@@ -10,8 +10,12 @@ namespace wedge::rendering {
 
 double luminance(const Vec3& colour);
 
-/// Power of a light, up to a factor common to all, by luminance.
+/// Radiant power of a light, by luminance.
 double light_power(const RectLight& rect);
+double light_power(const PointLight& point);
+
+/// Of something flat that shines to one side.
+double light_power(double area, const Vec3& radiance);
 
 class LightList {
   public:

@@ -36,8 +36,7 @@ void choose_filtered_lights(const Scene& scene, Plan& plan) {
     for (const RectLight& rect : scene.rect_lights) powers.push_back(light_power(rect));
     double flat = shining_power(scene), points = 0;
     for (const double power : powers) flat += power;
-    for (const PointLight& point : scene.point_lights)
-        points += 4 * double(kPi) * luminance(point.intensity);
+    for (const PointLight& point : scene.point_lights) points += light_power(point);
     for (const ShiningRect& rect : find_shining_rects(scene))
         powers.push_back(light_power(rect.light));
     const double all = flat + points;

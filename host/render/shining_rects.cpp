@@ -94,7 +94,7 @@ double shining_power(const Scene& scene) {
             if (m.emission == Vec3(0)) continue;
             const Corners c = corners_of(mesh, instance.transform, t);
             const double area = 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0]));
-            if (std::isfinite(area)) power += area * double(kPi) * luminance(m.emission);
+            if (std::isfinite(area)) power += light_power(area, m.emission);
         }
     }
     return power;
