@@ -1,5 +1,5 @@
 # Everything Wedge builds on. Header-only packages are looked for by header, so that a machine with
-# nothing but OpenCL can take them from any folder named in WEDGE_DEPS_DIR (see docs/gpu.md).
+# nothing but OpenCL can take them from any folder named in WEDGE_DEPS_DIR.
 set(WEDGE_DEPS_DIR "" CACHE PATH "Folder with an include/ of header-only dependencies")
 
 function(wedge_header_library name header package)

@@ -5,7 +5,6 @@
 #include <atomic>
 
 #include "host/base/parallel.hpp"
-#include "host/base/stopwatch.hpp"
 #include "host/bvh/box.hpp"
 #include "host/bvh/prim_refs.hpp"
 #include "wedge/error.hpp"
@@ -136,7 +135,6 @@ double expected_visits(const Bvh& tree) {
 
 UpdateResult update_vertices(Bvh& tree, std::span<const Vec3> positions,
                              std::span<const UVec3> triangles, const UpdateOptions& options) {
-    const Stopwatch watch;
     if (triangles.size() != tree.triangle_count)
         throw Error(ErrorKind::bad_input,
                     fmt::format("{} triangles for a tree of {}: only positions may change; build "
@@ -153,7 +151,6 @@ UpdateResult update_vertices(Bvh& tree, std::span<const Vec3> positions,
         tree = build(positions, triangles, options.quality);
         result.rebuilt = true;
     }
-    result.update_s = watch.total();
     return result;
 }
 

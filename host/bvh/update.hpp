@@ -15,7 +15,6 @@ struct UpdateOptions {
 struct UpdateResult {
     bool rebuilt = false;
     double cost_ratio = 1;  ///< after refitting, to that of the last build
-    double update_s = 0;
 };
 
 /// Expected number of nodes and blocks that a ray through the scene's box visits.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <exception>
 #include <future>
 #include <sstream>
@@ -13,8 +12,6 @@
 
 namespace wedge::device {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kLogLinesShown = 100;  // the first errors are the ones to mend
 
@@ -84,26 +81,21 @@ void store_binary(const std::string& name, const cl::Program& program) {
 
 Program build_one(const Device& device, const ProgramRequest& request,
                   const std::string& kernel_dir) {
-    const Clock::time_point start = Clock::now();
-    const auto finished = [start](cl::Program program, bool from_cache) {
-        const double elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
-        return Program{std::move(program), from_cache, elapsed_s};
-    };
     const std::string source = assemble_source(request.file, kernel_dir);
     const std::string options = build_options(request);
     if (!caches_programs(device)) {
-        return finished(build_from_source(device, request, source, options), false);
+        return {build_from_source(device, request, source, options), false};
     }
 
     const std::string name = cache_key(device, source, options) + ".program";
     if (const std::optional<std::string> binary = load_cached(name)) {
         if (cl::Program program = build_from_binary(device, *binary, options); program()) {
-            return finished(std::move(program), true);
+            return {std::move(program), true};
         }
     }
     cl::Program program = build_from_source(device, request, source, options);
     store_binary(name, program);
-    return finished(std::move(program), false);
+    return {std::move(program), false};
 }
 
 }  // namespace

@@ -13,13 +13,12 @@ namespace wedge::device {
 /// One kernel file and the coarse feature switches it is compiled with.
 struct ProgramRequest {
     std::string file;                  ///< "kernels/path.cl"
-    std::vector<std::string> defines;  ///< "WEDGE_HAS_GLOSS=1"
+    std::vector<std::string> defines;  ///< "WEDGE_SPECULAR=1"
 };
 
 struct Program {
     cl::Program program;
     bool from_cache = false;
-    double build_s = 0;
     /// Throws Error(device) if there is no such kernel.
     cl::Kernel kernel(const char* name) const;
 };

@@ -85,12 +85,6 @@ void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Ima
     });
 }
 
-Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop) {
-    Image image = black_image(film);
-    write_film(pixels, crop, image);
-    return image;
-}
-
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop) {
     if (channels.empty()) return;  // a large image is not copied for nothing
     const std::size_t before = image.channels.size(), after = before + channels.size();

@@ -10,13 +10,11 @@
 
 namespace wedge::rendering {
 
-/// `pixels` are the crop's, row by row; the image has the size of the film, 0 outside the crop.
-/// Channels are described in docs/output.md.
+/// The size of the film, all 0, with the channels of docs/output.md that every image has.
 Image black_image(const Film& film);
-void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image);
 
-/// Both: pixels outside the crop are 0.
-Image film_to_image(std::span<const shared::FilmPixel> pixels, const Film& film, const Rect& crop);
+/// `pixels` are the crop's, row by row.
+void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image);
 
 /// Appends channels; their values are the crop's, row by row.
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop);

@@ -36,8 +36,6 @@ shared::FrameParams make_frame_params(const Scene& scene, const PathSettings& se
     shared::FrameParams params{};
     params.camera = make_camera_rays(scene.camera, scene.film);
     params.background = {scene.background.x, scene.background.y, scene.background.z, 0};
-    params.width = scene.film.width;
-    params.height = scene.film.height;
     params.crop_x = settings.crop.x;
     params.crop_y = settings.crop.y;
     params.crop_width = settings.crop.width;

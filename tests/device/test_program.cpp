@@ -47,7 +47,6 @@ TEST_CASE("programs_come_in_the_order_asked_for_with_their_defines") {
         int value = 0;
         device.download(out, &value, 4);
         CHECK(value == 100 + i);
-        CHECK(programs[i].build_s > 0.0);
     }
 }
 

@@ -1,4 +1,4 @@
-// The two samplers estimate the same image.
+// Sobol points and independent numbers estimate the same image.
 #include <doctest/doctest.h>
 
 #include "statistics.hpp"

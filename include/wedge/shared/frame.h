@@ -22,8 +22,7 @@ WEDGE_ASSERT_SIZE(CameraRays, 64);
 typedef struct FrameParams {
     CameraRays camera;
     float4 background; /* rgb radiance */
-    int width, height; /* of the whole film, px */
-    int crop_x, crop_y, crop_width, crop_height;
+    int crop_x, crop_y, crop_width, crop_height; /* px of the whole film */
     uint seed;
     int sampler;
     int sequences; /* of the Sobol sampler: 1, or 2 where even and odd samples are told apart */
