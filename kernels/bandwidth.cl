@@ -56,11 +56,10 @@ inline float2 signal_bandwidth(__constant FilterSettings* settings, __global con
                    ? hemisphere_bandwidth(settings, narrowing, found, WEDGE_BAND_DIFFUSE,
                                           WEDGE_SHARE_DIFFUSE, pixel)
                    : (float2)(0.0f);
-    const float samples = sum->position.w;
-    return max_component(sum->specular.xyz) > 0.0f
-               ? hemisphere_bandwidth(settings, narrowing, found, sum->diffuse.w / samples,
-                                      lobe_share(sum->normal.w / samples), pixel)
-               : (float2)(0.0f);
+    const float shine = luminance(sum->specular.xyz); /* what exponents are weighted by */
+    return shine > 0.0f ? hemisphere_bandwidth(settings, narrowing, found, sum->diffuse.w / shine,
+                                               lobe_share(sum->normal.w / shine), pixel)
+                        : (float2)(0.0f);
 }
 
 __kernel void filter_brightness(__global const FilmPixel* restrict film,

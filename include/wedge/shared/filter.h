@@ -35,8 +35,8 @@ WEDGE_SHARED_BEGIN
 /* Sums over the samples of a pixel that met the same surface. */
 typedef struct SurfaceSum {
     float4 position; /* xyz, w: samples */
-    float4 normal;   /* xyz, w: exponents of the lobe */
-    float4 diffuse;  /* rgb: kd, w: band limits of the lobe, Omega_h */
+    float4 normal;   /* xyz, w: exponents of the lobe, each times the luminance of ks */
+    float4 diffuse;  /* rgb: kd, w: band limits of the lobe, Omega_h, times the same */
     float4 specular; /* rgb: ks, w: squares of the luminance of kd + ks */
 } SurfaceSum;
 WEDGE_ASSERT_SIZE(SurfaceSum, 64);
