@@ -152,15 +152,17 @@ typedef struct {
 
 inline Need signal_need(__constant FilterSettings* settings, __global const Light* lights,
                         __global const SurfaceSum* sum, __global const float4* reflected,
-                        int signal, float3 found, float size, float slanted_size, float bright) {
+                        int signal, float3 found, float slanted_size, float bright) {
     const float2 bandwidth =
         signal_bandwidth(settings, lights, sum, signal, found.xy, slanted_size);
     Need need = {bandwidth.x, 0.0f, 0.0f};
     const float relative = radiance_variance(sum, reflected, signal, fmax(found.z, 0.0f)) / bright;
     if (!(bandwidth.y > 0.0f && relative > 0.0f)) return need;
-    const float pixels = 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (size * slanted_size);
-    need.theory = WEDGE_LIGHT_RAY_SHARE * fmin(4.0f * relative, 1.0f) * bandwidth.y;
-    need.noise = WEDGE_LIGHT_RAY_SHARE * noise_samples(settings->mu, relative, pixels);
+    const float pixels = 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (slanted_size * slanted_size);
+    /* Of a filtered light each ray is a sample. */
+    const float share = is_light(signal) ? WEDGE_LIGHT_RAY_SHARE : 1.0f;
+    need.theory = share * fmin(4.0f * relative, 1.0f) * bandwidth.y;
+    need.noise = share * noise_samples(settings->mu, relative, pixels);
     return need;
 }
 
@@ -198,7 +200,7 @@ __kernel void filter_bandwidth(
                                   WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_MOST, at),
                                   WEDGE_FOUND(&planes, near_by, entry, WEDGE_FOUND_VARIANCE, at)};
             const Need need = signal_need(settings, lights, surface_sums + id,
-                                          reflected + reflected_at((uint)id, 0u), signal, found, size,
+                                          reflected + reflected_at((uint)id, 0u), signal, found,
                                           slanted_size, bright);
             sigmas[entry * planes.size + at] = need.sigma;
             most = fmax(most, need.theory);
