@@ -1,5 +1,6 @@
 #include "host/render/lights.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -76,8 +77,9 @@ int LightList::add(shared::Light light, double power) {
 }
 
 int LightList::add_rect(const RectLight& rect) {
-    const Vec3 normal = glm::cross(rect.edge_u, rect.edge_v);
-    const double area = glm::length(glm::dvec3(normal));
+    // Squares of what is tiny or huge have no place in a float.
+    const glm::dvec3 normal = glm::cross(glm::dvec3(rect.edge_u), glm::dvec3(rect.edge_v));
+    const double area = glm::length(normal);
     shared::Light light{};
     double sigma_u = 0, sigma_v = 0;
     light.profile = {1, 1, 1, 0};
@@ -92,7 +94,7 @@ int LightList::add_rect(const RectLight& rect) {
     light.origin = to_float4(rect.center - 0.5f * (rect.edge_u + rect.edge_v), area);
     light.edge_u = to_float4(rect.edge_u, sigma_u);
     light.edge_v = to_float4(rect.edge_v, sigma_v);
-    light.normal = to_float4(glm::normalize(normal), 0);
+    light.normal = to_float4(Vec3(normal / area), 0);
     light.radiance = to_float4(rect.radiance, 0);
     light.kind = WEDGE_LIGHT_RECT;
     light.emission_texture = -1;
@@ -125,14 +127,24 @@ int LightList::add_point(const PointLight& point) {
     return add(light, light_power(point));
 }
 
+// Random numbers are multiples of a step. Were sums not, too, a light would be chosen more or less
+// often than it is said to be, a weak one perhaps never: so each gets whole steps, and one at
+// least.
 std::vector<shared::Light> LightList::take() {
+    constexpr double kSteps = 1 << 24;
+    const auto count = double(lights_.size());
     double total = 0;
     for (double power : powers_) total += power;
-    double sum = 0;
+    double sum = 0, before = 0;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         sum += powers_[i];
-        lights_[i].normal.w = float(powers_[i] / total);
-        lights_[i].radiance.w = float(sum / total);
+        const double least = before + 1, most = kSteps - (count - double(i + 1));
+        const double end = count < kSteps
+                               ? std::clamp(std::round(sum / total * kSteps), least, most)
+                               : sum / total * kSteps;
+        lights_[i].normal.w = float((end - before) / kSteps);
+        lights_[i].radiance.w = float(end / kSteps);
+        before = end;
     }
     if (!lights_.empty()) lights_.back().radiance.w = 1;
     powers_.clear();

@@ -188,5 +188,40 @@ TEST_CASE("lights_without_power_are_left_out") {
     CHECK(lights[0].normal.w == 1.0f);
 }
 
+TEST_CASE("lights_are_chosen_as_often_as_is_said_however_weak_they_are") {
+    constexpr double kSteps = 1 << 24;  // of random numbers
+    for (const float weak : {1e-3f, 1e-6f, 3e-8f, 1e-12f}) {
+        rendering::LightList list;
+        for (const float intensity : {1.0f, weak, 0.3f, weak, weak})
+            CHECK(list.add_point({.intensity = Vec3(intensity)}) >= 0);
+        const auto lights = list.take();
+        double before = 0;
+        for (const shared::Light& light : lights) {
+            // Numbers u = i / kSteps with before <= u < sum, which choose this light.
+            const double end = double(light.radiance.w) * kSteps;
+            CHECK(end == std::floor(end));
+            CHECK(end - before == double(light.normal.w) * kSteps);
+            CHECK(end > before);
+            before = end;
+        }
+        CHECK(before == kSteps);
+        const double all = 1.3 + 3 * double(weak);
+        CHECK(std::abs(double(lights[0].normal.w) - 1 / all) <= 1 / kSteps);
+        CHECK(std::abs(double(lights[1].normal.w) - double(weak) / all) <= 1 / kSteps);
+    }
+}
+
+TEST_CASE("tiny_and_huge_rectangles_face_where_they_should") {
+    for (const float side : {1e-17f, 1e-10f, 1.0f, 1e10f, 1e17f}) {
+        rendering::LightList list;
+        CHECK(list.add_rect(
+                  {.edge_u = {0, 0, side}, .edge_v = {side, 0, 0}, .radiance = Vec3(1)}) == 0);
+        const float4 normal = list.take()[0].normal;
+        CHECK(normal.x == 0);
+        CHECK(normal.y == 1);
+        CHECK(normal.z == 0);
+    }
+}
+
 }  // namespace
 }  // namespace wedge::test
