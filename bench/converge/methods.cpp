@@ -82,10 +82,6 @@ constexpr Method kMethods[] = {
     peer("luxcore", "LuxCore, Sobol", "luxcore_peer.py", true),
 };
 
-const char* name_of(wedge::Method method) {
-    return method == wedge::Method::mc ? "mc" : "aaf";
-}
-
 }  // namespace
 
 std::span<const Method> all_methods() {
@@ -130,7 +126,7 @@ nlohmann::json settings_json(const Method& method) {
     if (method.peer_script) return {{"renderer", method.name}};
     RenderOptions options;
     method.configure(options);
-    nlohmann::json settings = {{"method", name_of(options.method)},
+    nlohmann::json settings = {{"method", to_string(options.method)},
                                {"sampler", to_string(options.sampler)},
                                {"sample_offset", options.sample_offset}};
     if (method.filter) settings["filter"] = method.name;
@@ -145,7 +141,7 @@ nlohmann::json settings_json(const Method& method) {
 }
 
 std::string render_arguments(const RenderOptions& options) {
-    std::string text = fmt::format("--method {} --sampler {} --seed {}", name_of(options.method),
+    std::string text = fmt::format("--method {} --sampler {} --seed {}", to_string(options.method),
                                    to_string(options.sampler), options.seed);
     if (options.samples_per_pixel) text += fmt::format(" --spp {}", *options.samples_per_pixel);
     if (options.method == wedge::Method::aaf)

@@ -165,7 +165,9 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("scene", a.scene, "Scene file (.json) or model (.obj)")
         ->type_name("FILE")
         ->required();
-    command.add_option("--spp", a.spp, "Samples per pixel; default: the scene's");
+    command.add_option(
+        "--spp", a.spp,
+        "Samples per pixel, with aaf the most; default: the scene's, with aaf 128 max(1, mu)");
     command.add_option("--bounces", a.bounces,
                        "Indirect bounces, 0 is direct light only; default: the scene's");
     command.add_option("--size", a.size, "Film as WIDTHxHEIGHT in px; default: the scene's");

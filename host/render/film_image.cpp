@@ -36,34 +36,61 @@ struct ChannelWriter {
     }
 };
 
-void write_pixel(const shared::FilmPixel& p, float* out) {
-    const double n = p.direct.w, seen = p.normal.w;
-    if (seen <= 0) return;
-    // Geometry comes from every camera ray; a pixel whose samples were all dropped is black.
-    const double mean = n > 0 ? 1 / n : 0, emission = p.position.w > 0 ? 1 / p.position.w : 0;
+double mean_of(double samples) {
+    return samples > 0 ? 1 / samples : 0;
+}
+
+struct Beauty {
+    double rgb[3];
+};
+
+Beauty beauty_of(const shared::FilmPixel& p) {
+    const double mean = mean_of(p.direct.w), emission = mean_of(p.position.w);
     const auto total = [&](float emitted, float direct, float indirect) {
         return emission * emitted + mean * (double(direct) + indirect);
     };
-    const double beauty[3] = {total(p.emission.x, p.direct.x, p.indirect.x),
-                              total(p.emission.y, p.direct.y, p.indirect.y),
-                              total(p.emission.z, p.direct.z, p.indirect.z)};
-    const double hits = p.emission.w, per_hit = hits > 0 ? 1 / hits : 0;
-    const double normal_length = std::hypot(p.normal.x, p.normal.y, p.normal.z);
+    return {{total(p.emission.x, p.direct.x, p.indirect.x),
+             total(p.emission.y, p.direct.y, p.indirect.y),
+             total(p.emission.z, p.direct.z, p.indirect.z)}};
+}
 
-    ChannelWriter writer{out};
-    for (double value : beauty) writer.value(value);
-    writer.value(hits / seen);
-    writer.rgb(p.direct, mean);
-    writer.rgb(p.indirect, mean);
-    writer.rgb(p.emission, emission);
+/// The first channels.
+void write_pixel_light(const shared::FilmPixel& p, ChannelWriter& writer) {
+    for (double value : beauty_of(p).rgb) writer.value(value);
+    writer.value(p.emission.w / p.normal.w);
+    writer.rgb(p.direct, mean_of(p.direct.w));
+    writer.rgb(p.indirect, mean_of(p.direct.w));
+    writer.rgb(p.emission, mean_of(p.position.w));
+}
+
+/// Geometry comes from every camera ray; a pixel whose samples were all dropped is black.
+void write_pixel(const shared::FilmPixel& p, ChannelWriter writer) {
+    const double n = p.direct.w, seen = p.normal.w, per_hit = mean_of(p.emission.w);
+    const double normal_length = std::hypot(p.normal.x, p.normal.y, p.normal.z);
+    const Beauty beauty = beauty_of(p);
+    write_pixel_light(p, writer);
     writer.rgb(p.albedo, 1 / seen);
     writer.rgb(p.normal, normal_length > 0 ? 1 / normal_length : 0);
     writer.rgb(p.position, per_hit);
     writer.value(p.albedo.w * per_hit);
-    writer.value(variance_of_mean(n * beauty[0], p.square.x, n));
-    writer.value(variance_of_mean(n * beauty[1], p.square.y, n));
-    writer.value(variance_of_mean(n * beauty[2], p.square.z, n));
+    writer.value(variance_of_mean(n * beauty.rgb[0], p.square.x, n));
+    writer.value(variance_of_mean(n * beauty.rgb[1], p.square.y, n));
+    writer.value(variance_of_mean(n * beauty.rgb[2], p.square.z, n));
     writer.value(n);
+}
+
+/// Of pixels that have been looked at.
+template <typename Write>
+void write_pixels(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image,
+                  Write write) {
+    parallel_ranges(std::size_t(crop.height), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y)
+            for (int x = 0; x < crop.width; ++x) {
+                const shared::FilmPixel& p = pixels[y * crop.width + x];
+                ChannelWriter writer{&image.at(crop.x + x, crop.y + int(y), 0)};
+                if (p.normal.w > 0) write(p, writer);
+            }
+    });
 }
 
 }  // namespace
@@ -78,11 +105,11 @@ Image black_image(const Film& film) {
 }
 
 void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image) {
-    parallel_ranges(std::size_t(crop.height), 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y)
-            for (int x = 0; x < crop.width; ++x)
-                write_pixel(pixels[y * crop.width + x], &image.at(crop.x + x, crop.y + int(y), 0));
-    });
+    write_pixels(pixels, crop, image, write_pixel);
+}
+
+void write_light(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image) {
+    write_pixels(pixels, crop, image, write_pixel_light);
 }
 
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop) {

@@ -16,6 +16,9 @@ Image black_image(const Film& film);
 /// `pixels` are the crop's, row by row.
 void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image);
 
+/// The same, of light alone: what filters change.
+void write_light(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image);
+
 /// Appends channels; their values are the crop's, row by row.
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop);
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <numeric>
 #include <optional>
 
 #include "host/device/self_test.hpp"
@@ -56,7 +54,7 @@ void add_metadata(Image& image, const Scene& scene, const RenderOptions& options
     m["wedge:device"] = stats.device.name;
     m["wedge:driver"] = stats.device.driver;
     m["wedge:version"] = version();
-    m["wedge:method"] = options.method == Method::aaf ? "aaf" : "mc";
+    m["wedge:method"] = to_string(options.method);
     if (stats.mu > 0) m["wedge:mu"] = fmt::format("{:g}", stats.mu);
     if (options.method == Method::aaf) {
         m["wedge:filter"] = to_string(options.filter);
@@ -85,46 +83,44 @@ void finish_band(PathTracer& tracer, const RenderOptions& options, Frame& frame)
     write_film(film, tracer.crop(), frame.image);
 }
 
+/// Path tracing alone, band by band; the last one is left on the device.
+void run_plain(const Scene& scene, const RenderOptions& options, const std::vector<Rect>& bands,
+               SamplingLoop& loop, PathTracer& tracer, Frame& frame) {
+    const uint32_t first = options.sample_offset, samples = sample_count(scene, options);
+    if (estimates_error(options, bands.size()))
+        return run_progressively(options, first, samples, loop, tracer, frame.stats);
+    uint64_t pixels = 0;
+    for (const Rect& band : bands) pixels += uint64_t(band.width) * uint64_t(band.height);
+    for (std::size_t band = 0; band < bands.size(); ++band) {
+        if (band > 0) {
+            finish_band(tracer, options, frame);
+            tracer.move_to(bands[band]);
+        }
+        if (!loop.run("trace_paths", first, first + samples, samples * pixels)) return;
+    }
+}
+
+/// Takes what is on the device, and what filters have made of it, into the image. `complete`: all
+/// of it is filtered.
+void finish_frame(PathTracer& tracer, const RenderOptions& options, const FilteredLight& filtered,
+                  bool complete, Frame& frame) {
+    std::vector<shared::FilmPixel> film = tracer.read_film();
+    count_film(film, tracer.crop(), options.seed, frame.stats);
+    write_film(film, tracer.crop(), frame.image);  // variances, too, are of what was sampled
+    if (filtered.guarded.empty()) return;
+    const std::vector<Vec3> errors =
+        told_errors(filtered.guarded, std::size_t(tracer.crop().width));
+    const std::vector<NamedChannel> layers = filter_layers(filtered, film, errors);
+    replace_unfiltered(film, filtered);
+    if (complete) frame.stats.estimated_error = estimate_of_filtered(film, errors);
+    write_light(film, tracer.crop(), frame.image);
+    add_channels(frame.image, layers, tracer.crop());
+}
+
 }  // namespace
 
 const char* version() {
     return WEDGE_VERSION;
-}
-
-const char* to_string(Sampler sampler) {
-    switch (sampler) {
-        case Sampler::sobol:
-            return "sobol";
-        case Sampler::hash:
-            return "hash";
-        case Sampler::stratified:
-            return "stratified";
-        case Sampler::lattice:
-            return "lattice";
-    }
-    return "unknown";
-}
-
-Sampler parse_sampler(const std::string& name, const std::string& option) {
-    std::string known;
-    for (Sampler sampler : {Sampler::sobol, Sampler::stratified, Sampler::lattice, Sampler::hash}) {
-        if (name == to_string(sampler)) return sampler;
-        known += (known.empty() ? "" : ", ") + std::string(to_string(sampler));
-    }
-    throw Error(ErrorKind::usage,
-                fmt::format("{} {}: no such sampler; known: {}", option, name, known));
-}
-
-const char* to_string(FilterMode mode) {
-    switch (mode) {
-        case FilterMode::guarded:
-            return "guarded";
-        case FilterMode::plain:
-            return "plain";
-        case FilterMode::none:
-            return "none";
-    }
-    return "unknown";
 }
 
 Frame render(const Scene& scene, const RenderOptions& options) {
@@ -136,8 +132,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
     Frame frame;
     frame.stats.device = device.info();
     const Plan plan = make_plan(scene, options.method, settings.bounces);
-    const Rect whole = settings.crop;
-    const std::vector<Rect> bands = cut_into_bands(whole, options, device.info());
+    const std::vector<Rect> bands = cut_into_bands(settings.crop, options, device.info());
     settings.crop = bands[0];
     PathTracer tracer(device, scene, settings, plan, frame.stats);
     std::optional<SignalFilter> filter;
@@ -159,24 +154,11 @@ Frame render(const Scene& scene, const RenderOptions& options) {
         frame.stats.render_cpu_s = cpu_watch.total();
     };
     try {
-        if (filter) {
+        if (checkpoints) loop.keep(*checkpoints);
+        if (filter)
             complete = run_filtered(scene, options, loop, tracer, *filter, frame.stats);
-        } else {
-            const uint32_t samples = sample_count(scene, options);
-            if (checkpoints) loop.keep(*checkpoints);
-            const bool estimates = estimates_error(options, bands.size());
-            if (estimates)
-                run_progressively(options, options.sample_offset, samples, loop, tracer,
-                                  frame.stats);
-            const uint64_t total = uint64_t(samples) * whole.width * whole.height;
-            for (std::size_t band = 0; band < bands.size() && !estimates; ++band) {
-                if (band > 0) finish_band(tracer, options, frame);
-                if (band > 0) tracer.move_to(bands[band]);
-                if (!loop.run("trace_paths", options.sample_offset, options.sample_offset + samples,
-                              total))
-                    break;
-            }
-        }
+        else
+            run_plain(scene, options, bands, loop, tracer, frame);
         note_times();
         if (filter) {
             filtered = filter->read_light();
@@ -191,15 +173,7 @@ Frame render(const Scene& scene, const RenderOptions& options) {
         frame.stats.mu = 0;
         filtered = {};
     }
-    std::vector<shared::FilmPixel> film = tracer.read_film();
-    const std::vector<Vec3> errors =
-        told_errors(filtered.guarded, std::size_t(tracer.crop().width));
-    const std::vector<NamedChannel> layers = filter_layers(filtered, film, errors);
-    replace_unfiltered(film, filtered);
-    if (complete) frame.stats.estimated_error = estimate_of_filtered(film, errors);
-    count_film(film, tracer.crop(), options.seed, frame.stats);
-    write_film(film, tracer.crop(), frame.image);
-    add_channels(frame.image, layers, tracer.crop());
+    finish_frame(tracer, options, filtered, complete, frame);
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

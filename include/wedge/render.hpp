@@ -31,6 +31,9 @@ Sampler parse_sampler(const std::string& name, const std::string& option);
 /// densely as their frequencies ask for, and filtered (docs/filtering.md); all else as `mc`.
 enum class Method { mc, aaf };
 
+/// As users write it: "mc", "aaf".
+const char* to_string(Method method);
+
 /// What `aaf` does with what it sampled: filters where a guard lets it, filters as the papers do,
 /// or leaves it as it is.
 enum class FilterMode { guarded, plain, none };
@@ -55,7 +58,7 @@ struct Progress {
 
 struct RenderOptions {
     std::string device;  ///< index, part of a name, `cpu`, `gpu`; empty: the best there is
-    std::optional<int> samples_per_pixel;  ///< else the scene's
+    std::optional<int> samples_per_pixel;  ///< mc: else the scene's; aaf: see mu
     std::optional<int> bounces;            ///< else the scene's
     /// mc: stop at the first batch boundary after this. aaf: raise mu as long as there is time.
     std::optional<double> time_limit_s;
@@ -63,7 +66,7 @@ struct RenderOptions {
     uint64_t seed = 0;
     uint32_t sample_offset = 0;  ///< first sample index; a multiple of kSampleBatch
     Sampler sampler = Sampler::sobol;
-    Method method = Method::mc;
+    Method method = Method::mc;  ///< that of `wedge render` is aaf
     /// aaf: bandwidth scale, > 0. Larger: more samples, narrower filters, less bias;
     /// samples_per_pixel then is the most a pixel gets, by default 128 * max(1, mu), rounded
     /// to a power of two. With a time limit or a target error this is the most that mu rises to, by

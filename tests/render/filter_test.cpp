@@ -321,5 +321,32 @@ TEST_CASE("filtered_images_do_not_depend_on_work_groups_or_tiles") {
     }
 }
 
+TEST_CASE("variances_are_of_what_was_sampled") {
+    const Scene scene = make_penumbra(LightProfile::uniform);
+    RenderOptions options = filtered(1);
+    options.adaptive = false;
+    options.samples_per_pixel = 16;
+    options.sampler = Sampler::hash;
+    constexpr int kSeeds = 16;
+    std::vector<double> sum, squares;
+    double told = 0;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+        options.seed = uint64_t(seed);
+        const Image image = render(scene, options).image;
+        const auto values = channel_values(image, "unfiltered.G");
+        sum.resize(values.size());
+        squares.resize(values.size());
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            sum[i] += values[i];
+            squares[i] += values[i] * values[i];
+        }
+        told += channel_mean(image, "variance.G") / kSeeds;
+    }
+    double found = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        found += (squares[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1) / double(sum.size());
+    CHECK(told == doctest::Approx(found).epsilon(0.05).scale(1e-12));
+}
+
 }  // namespace
 }  // namespace wedge::test
