@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kLargestSide_px = 65536;  // the same as in scene files
 
 [[noreturn]] void refuse(const std::string& message) {
     throw Error(ErrorKind::usage, message);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bench/peers/scene_export.hpp"
+#include "host/base/atomic_file.hpp"
 #include "wedge/image_io.hpp"
 
 namespace wedge::converge {
@@ -63,7 +64,7 @@ PeerReference PeerRuns::reference(const Method& method,
     say(fmt::format("{}: reference by {}, {} samples a pixel", name_, method.name, spp));
     reference.image = peer_of(method).render(spp, kReferenceSeed, kReferenceParts).image;
     reference.version = reference.image.metadata["wedge:renderer"];
-    std::filesystem::create_directories(config_.references);
+    make_folder(config_.references);
     write_exr(file, reference.image);
     return reference;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bench/converge/run_record.hpp"
+#include "host/base/atomic_file.hpp"
 #include "wedge/error.hpp"
 #include "wedge/image_io.hpp"
 #include "wedge/log.hpp"
@@ -167,7 +168,7 @@ double mean_squared_error_of(const Reference& reference) {
 }
 
 Reference make_reference(const Scene& scene, const ReferenceRequest& request) {
-    fs::create_directories(request.folder);
+    make_folder(request.folder);
     // Pieces do not depend on the samples asked for, so that more can be added; only short
     // references have short ones.
     const int piece_samples =

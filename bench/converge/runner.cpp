@@ -13,6 +13,7 @@
 #include "bench/converge/peer_runs.hpp"
 #include "bench/converge/reference_margin.hpp"
 #include "bench/peers/scene_export.hpp"
+#include "host/base/atomic_file.hpp"
 #include "host/device/device.hpp"
 #include "wedge/error.hpp"
 #include "wedge/image_io.hpp"
@@ -262,7 +263,7 @@ ReferenceRequest reference_request(const Config& config, const std::string& name
 SceneRuns run_scene(const Config& config, const std::string& scene_file, const LoadOptions& load,
                     const Say& say) {
     const Scene scene = scene_to_measure(config, scene_file, load, say);
-    fs::create_directories(config.folder / "images");
+    make_folder(config.folder / "images");
 
     SceneRuns out;
     out.name = fs::path(scene_file).stem().string();

@@ -152,11 +152,7 @@ std::vector<std::string> simplify_for_peers(Scene& scene, bool lambert_only) {
 }
 
 void export_scene(const Scene& scene, const fs::path& folder) {
-    std::error_code failed;
-    for (const char* part : {"meshes", "textures"}) fs::create_directories(folder / part, failed);
-    if (failed)
-        throw Error(ErrorKind::output,
-                    fmt::format("{}: cannot be created: {}", folder.string(), failed.message()));
+    for (const char* part : {"meshes", "textures"}) make_folder(folder / part);
     const Camera& camera = scene.camera;
     ordered_json object{{"format", "wedge-peers 1"},
                         {"name", scene.name},

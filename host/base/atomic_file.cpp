@@ -85,6 +85,14 @@ void AtomicFile::commit() {
     committed_ = true;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        throw Error(ErrorKind::output,
+                    fmt::format("{}: cannot be created: {}", folder.string(), failed.message()));
+}
+
 void write_file_atomically(const fs::path& target, std::string_view bytes) {
     std::error_code ignored;
     if (fs::exists(target, ignored) && fs::is_other(target, ignored)) {

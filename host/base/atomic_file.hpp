@@ -32,6 +32,9 @@ class AtomicFile {
     bool committed_ = false;
 };
 
+/// Makes a folder and those above it, if they are not there. Throws Error(output).
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes `bytes` to `target` through an AtomicFile; to devices and pipes (/dev/stdout), directly.
 /// Throws Error(output) with the path and the system's reason.
 void write_file_atomically(const std::filesystem::path& target, std::string_view bytes);

@@ -112,7 +112,8 @@ int main(int argc, char** argv) {
     try {
         return cli::run(argc, argv);
     } catch (const std::bad_alloc&) {
-        cli::say_error("out of memory");
+        cli::say_error("there is not enough memory; render a smaller film or scene");
+        return int(ErrorKind::device);
     } catch (const std::exception& error) {
         cli::say_error(std::string("internal error: ") + error.what());
     }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -20,6 +19,7 @@
 #include "host/cli/progress.hpp"
 #include "host/cli/render_arguments.hpp"
 #include "host/cli/render_report.hpp"
+#include "host/cli/written_files.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
 
@@ -35,25 +35,21 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void check_outputs(const RenderArguments& arguments, const RenderJob& job) {
-    for (const fs::path& file : job.outputs) check_output(file);
-    if (!arguments.stats_file.empty()) check_output(arguments.stats_file);
-    if (!arguments.resume_file.empty()) check_output(arguments.resume_file);
+HeatFiles heat_files_of(const RenderJob& job, const std::vector<std::string>& layers) {
+    HeatFiles files;
+    for (const std::string& layer : layers)
+        files.emplace_back(layer, heat_file(job.outputs.front(), layer));
+    return files;
 }
 
-/// Beside the first output, by layer. Throws Error if one cannot be there or be written.
-HeatFiles plan_heat(const RenderJob& job, const Scene& scene) {
-    HeatFiles files;
-    for (const std::string& layer : choose_heat_layers(job.heat, scene, job.options)) {
-        const fs::path file = heat_file(job.outputs.front(), layer);
-        if (std::count(job.outputs.begin(), job.outputs.end(), file) > 0)
-            throw Error(ErrorKind::usage, fmt::format("--heat {}: would replace the image {}; give "
-                                                      "--output another name",
-                                                      layer, file.string()));
-        check_output(file);
-        files.emplace_back(layer, file);
-    }
-    return files;
+/// Before the scene is read, which may take a while, and again with what it has to draw.
+void check_files(const RenderArguments& arguments, const RenderJob& job, const HeatFiles& heat) {
+    std::vector<NamedFile> written;
+    for (const fs::path& file : job.outputs) written.push_back({"--output", file});
+    for (const auto& [layer, file] : heat) written.push_back({"--heat " + layer, file});
+    if (!arguments.stats_file.empty()) written.push_back({"--stats", arguments.stats_file});
+    if (!arguments.resume_file.empty()) written.push_back({"--resume", arguments.resume_file});
+    check_written({{"the scene", arguments.scene}}, written);
 }
 
 void replay(const Scene& scene, const RenderJob& job) {
@@ -135,7 +131,7 @@ void run(const RenderArguments& arguments) {
     const RenderJob job = check_arguments(arguments);
     if (!job.pixel) {
         require_image_support("render");
-        check_outputs(arguments, job);
+        check_files(arguments, job, {});
     }
 
     const auto start = std::chrono::steady_clock::now();
@@ -143,7 +139,9 @@ void run(const RenderArguments& arguments) {
     apply_film(job, scene);
     const double load_s = seconds_since(start);
     if (job.pixel) return replay(scene, job);
-    const HeatFiles heat_files = plan_heat(job, scene);
+    const HeatFiles heat_files =
+        heat_files_of(job, choose_heat_layers(job.heat, scene, job.options));
+    check_files(arguments, job, heat_files);
 
     const Frame frame = render_with_progress(scene, job.options);
     const RenderStats& stats = frame.stats;
@@ -191,7 +189,7 @@ void add_what_to_render(CLI::App& command, RenderArguments& a) {
     command.add_option("--filter", a.filter,
                        "aaf: guarded, plain (as in the papers) or none; default: guarded");
     command.add_flag("--uniform", a.uniform,
-                     "aaf: the same number of samples in every pixel, --spp or 16");
+                     "aaf: the same number of paths in every pixel, --spp or the probe's");
     command.add_option("--integrator", a.integrator,
                        "path, or ao: ambient occlusion, white surfaces under a white sky; default: "
                        "path");

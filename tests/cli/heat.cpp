@@ -72,7 +72,7 @@ TEST_CASE("heat_layers_that_are_not_there_are_refused_before_rendering") {
     // Without bounces and background no hemisphere is filtered.
     refused(render_heat(bench, "guard.indirect", {"--method", "aaf", "--bounces", "0"}),
             "this render has spp, Z, variance, width.direct,");
-    refused(render_heat(bench, "spp", {"-o", "out.spp.png"}), "would replace the image");
+    refused(render_heat(bench, "spp", {"-o", "out.spp.png"}), "would replace the file of --output");
 }
 
 }  // namespace wedge::test

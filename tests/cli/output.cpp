@@ -47,6 +47,18 @@ TEST_CASE("unwritable_stats_file_is_refused_before_the_render") {
     CHECK(result.err_has("absent/s.json"));
 }
 
+TEST_CASE("benches_that_cannot_write_say_so") {
+    const Workbench bench;
+    write_room(bench);
+    for (const std::string folder : {"/proc/out", "room.json"}) {
+        const ProcessResult result =
+            bench.wedge({"bench", "converge", "room.json", "--size", "8", "-o", folder});
+        CAPTURE(result.err);
+        CHECK(result.exit_code == kOutput);
+        CHECK(result.err_has(folder));
+    }
+}
+
 TEST_CASE("full_disk_is_told_and_leaves_no_file") {
     const Workbench bench;
     write_room(bench);
