@@ -89,6 +89,9 @@ std::string read_text(const fs::path& file, std::uintmax_t largest_bytes) {
     if (!stream) fail("cannot be opened; check its permissions");
     stream.read(text.data(), std::streamsize(size));
     if (std::uintmax_t(stream.gcount()) != size) fail("could not be read to its end");
+    // Editors on Windows mark UTF-8 by these; to a parser they would be part of the first word.
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     return text;
 }
 

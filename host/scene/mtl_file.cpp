@@ -122,10 +122,10 @@ bool MtlReader::operator()(const std::string&, std::vector<tinyobj::material_t>*
                             "paths; its materials are grey",
                             obj_.string(), line));
         for (const auto& file : files) {
-            std::string text = read_text(file, kLargestMtl_bytes);
+            const std::string text = read_text(file, kLargestMtl_bytes);
             const std::string flaws = describe_bad_numbers(text);
             if (!flaws.empty()) log_warning(file.string() + flaws);
-            std::istringstream stream(std::move(text));
+            std::istringstream stream(with_white_beside_maps(text));
             std::string remarks;  // about duplicates and the like: nothing to act on
             tinyobj::LoadMtl(index_of, materials, &stream, &remarks, error);
             file_of_.resize(materials->size(), file);

@@ -78,4 +78,19 @@ std::string describe_bad_numbers(std::string_view mtl) {
     return list;
 }
 
+std::string with_white_beside_maps(std::string_view mtl) {
+    std::string text;
+    bool has_color = false;
+    for (std::string_view rest = mtl; !rest.empty();) {
+        const std::string_view before = rest;
+        std::string_view line = take_line(rest);
+        const std::string_view keyword = take_word(line);
+        if (keyword == "newmtl") has_color = false;
+        if (keyword == "map_Kd" && !has_color) text += "Kd 1 1 1\n";
+        if (keyword == "Kd" || keyword == "map_Kd") has_color = true;
+        text += before.substr(0, before.size() - rest.size());
+    }
+    return text;
+}
+
 }  // namespace wedge::scene

@@ -1,4 +1,4 @@
-// Numbers in the text of an MTL file that cannot be meant; the parser takes them without a word.
+// What the text of an MTL file cannot mean, or leaves unsaid, and the parser makes up without a word.
 #pragma once
 
 #include <string>
@@ -9,5 +9,9 @@ namespace wedge::scene {
 /// `:3: Kd -1 0 0: …; :7: …; and 2 more`: lines whose colours are negative or no numbers, whose
 /// exponents are out of range, whose texture options are no numbers. Empty if there are none.
 std::string describe_bad_numbers(std::string_view mtl);
+
+/// With `Kd 1 1 1` before each `map_Kd` that stands before any other Kd of its material. The parser
+/// would take 0.6.
+std::string with_white_beside_maps(std::string_view mtl);
 
 }  // namespace wedge::scene

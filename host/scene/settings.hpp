@@ -11,8 +11,4 @@ Camera read_camera(const JsonView& view);
 Film read_film(const JsonView& view);
 RenderDefaults read_render_defaults(const JsonView& view);
 
-inline constexpr int kLargestSide_px = 65536;
-/// 4 GiB of RGBA in single precision.
-inline constexpr long long kMostPixels = 1ll << 28;
-
 }  // namespace wedge::scene

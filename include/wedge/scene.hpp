@@ -109,6 +109,11 @@ struct Film {
     int height = 480;  ///< px, > 0
 };
 
+/// What scene files and commands may ask for.
+inline constexpr int kLargestSide_px = 65536;
+/// 4 GiB of RGBA in single precision.
+inline constexpr long long kMostPixels = 1ll << 28;
+
 /// What the scene file asks for; command-line options override it.
 struct RenderDefaults {
     int samples_per_pixel = 64;

@@ -125,6 +125,14 @@ TEST_CASE("missing_libraries_and_materials_are_grey") {
     CHECK(scene.meshes[0].material_of.at(0) == 0);
 }
 
+TEST_CASE("byte_order_marks_are_passed_over") {
+    const std::string mark = "\xEF\xBB\xBF";
+    const Scene scene = load_obj_text(mark + "mtllib m.mtl\nusemtl a\n" + kTriangleObj,
+                                      mark + "newmtl a\nKd 0.1 0.2 0.3\n");
+    CHECK(scene.materials.at(0).diffuse == Vec3(0.1f, 0.2f, 0.3f));
+    CHECK(load_obj_text(mark + kTriangleObj).meshes.at(0).positions.size() == 3);
+}
+
 TEST_CASE("libraries_are_found_whatever_their_case_blanks_and_separators") {
     for (const char* name :
          {"my colours.mtl", "MY Colours.MTL", ".\\my colours.mtl", "C:\\old\\my colours.mtl"}) {

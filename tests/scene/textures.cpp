@@ -99,6 +99,20 @@ TEST_CASE("black_beside_a_map_is_white") {
     CHECK(l.scene.materials.at(0).emission == Vec3(1));
 }
 
+TEST_CASE("a_map_without_a_colour_is_taken_as_it_is") {
+    for (const char* mtl : {"map_Kd wall.png\n", "  map_Kd\twall.png\nKs 0 0 0\n"}) {
+        Loaded l;
+        load_mtl(mtl, l);
+        CHECK(l.scene.materials.at(0).diffuse == Vec3(1));
+    }
+    for (const char* mtl :
+         {"Kd 0.3 0.3 0.3\nmap_Kd wall.png\n", "map_Kd wall.png\nKd 0.3 0.3 0.3"}) {
+        Loaded l;
+        load_mtl(mtl, l);
+        CHECK(l.scene.materials.at(0).diffuse == Vec3(0.3f));
+    }
+}
+
 TEST_CASE("without_a_loader_textures_are_left_out_with_one_warning") {
     TempFolder folder;
     folder.write("m.mtl", "newmtl a\nKd 1 1 1\nmap_Kd wall.png\nmap_Ke b.png\n");
