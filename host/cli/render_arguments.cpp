@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLargestSide_px = 65536;  // the same as in scene files
-
 [[noreturn]] void refuse(const std::string& message) {
     throw Error(ErrorKind::usage, message);
 }
@@ -32,8 +30,8 @@ void check_numbers(const RenderArguments& a) {
         refuse(fmt::format("--time: must be a positive number of seconds, got {}", *a.time_s));
     if (a.target_error && !(*a.target_error > 0 && std::isfinite(*a.target_error)))
         refuse(fmt::format("--target-error: must be positive, got {}", *a.target_error));
-    if (!(a.checkpoint_s >= 0))
-        refuse(fmt::format("--checkpoint: must not be negative, got {}", a.checkpoint_s));
+    if (a.checkpoint_s && !(*a.checkpoint_s >= 0))
+        refuse(fmt::format("--checkpoint: must not be negative, got {}", *a.checkpoint_s));
     if (a.exposure && !std::isfinite(*a.exposure))
         refuse(fmt::format("--exposure: must be a number of stops, got {}", *a.exposure));
     if (a.sample_offset % kSampleBatch != 0)
@@ -46,6 +44,8 @@ Film parse_size(const std::string& text) {
     const auto [smallest, largest] = std::minmax(sides[0], sides[1]);
     if (smallest < 1 || largest > kLargestSide_px)
         refuse(fmt::format("--size: each side must be 1 to {} px, got {}", kLargestSide_px, text));
+    if ((long long)(sides[0]) * sides[1] > kMostPixels)
+        refuse(fmt::format("--size: {} are more than {} pixels", text, kMostPixels));
     return Film{sides[0], sides[1]};
 }
 
@@ -94,12 +94,13 @@ BvhOptions parse_bvh(const RenderArguments& a) {
 }
 
 ErrorMetric parse_metric(const std::string& name) {
-    if (name == "relmse") return ErrorMetric::rel_mse;
+    if (name.empty() || name == "relmse") return ErrorMetric::rel_mse;
     if (name == "rmse") return ErrorMetric::rmse;
     refuse("--target-metric " + name + ": no such metric; known: relmse, rmse");
 }
 
 FilterMode parse_filter(const std::string& name) {
+    if (name.empty()) return FilterMode::guarded;
     for (FilterMode mode : {FilterMode::guarded, FilterMode::plain, FilterMode::none})
         if (name == to_string(mode)) return mode;
     refuse("--filter " + name + ": no such way to filter; known: guarded, plain, none");
@@ -109,6 +110,33 @@ bool is_ambient_occlusion(const std::string& integrator) {
     if (integrator == "path") return false;
     if (integrator == "ao") return true;
     refuse("--integrator " + integrator + ": no such integrator; known: path, ao");
+}
+
+/// What would be asked for in vain is a mistake.
+void check_combinations(const RenderArguments& a, Method method) {
+    const auto refuse_if = [](bool given, const char* option, const char* why) {
+        if (given) refuse(std::string(option) + ": " + why);
+    };
+    if (method == Method::mc) {
+        const char* why = "has no meaning without filters; leave it out, or --method aaf";
+        refuse_if(a.mu.has_value(), "--mu", why);
+        refuse_if(!a.filter.empty(), "--filter", why);
+        refuse_if(a.uniform, "--uniform", why);
+    }
+    refuse_if(!a.resume_file.empty() && method != Method::mc, "--resume",
+              "only renders by --method mc can be resumed");
+    refuse_if(!a.pixel.empty() && method != Method::mc, "--pixel",
+              "replays path tracing alone; leave --method out");
+    refuse_if(a.checkpoint_s && a.resume_file.empty(), "--checkpoint",
+              "says how often --resume saves, which is not given");
+    refuse_if(!a.target_metric.empty() && !a.target_error, "--target-metric",
+              "says what --target-error is, which is not given");
+    refuse_if(a.target_error && a.uniform && method == Method::aaf, "--target-error",
+              "needs samples that differ from pixel to pixel; leave out --uniform");
+    refuse_if(a.target_error && !a.resume_file.empty(), "--target-error",
+              "such a render cannot be resumed; give --spp instead");
+    refuse_if(a.bounces && is_ambient_occlusion(a.integrator), "--bounces",
+              "ambient occlusion has none");
 }
 
 std::vector<fs::path> output_files(const RenderArguments& arguments) {
@@ -146,6 +174,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.sampler = parse_sampler(arguments.sampler, "--sampler");
     job.options.bvh = parse_bvh(arguments);
     job.options.method = choose_method(arguments);
+    check_combinations(arguments, job.options.method);
     if (arguments.mu && !(*arguments.mu > 0))
         refuse(fmt::format("--mu {}: must be positive", *arguments.mu));
     job.options.mu = arguments.mu;
@@ -157,15 +186,8 @@ RenderJob check_arguments(const RenderArguments& arguments) {
     job.options.estimate_error = true;
     job.options.target_error = arguments.target_error;
     job.options.target_metric = parse_metric(arguments.target_metric);
-    if (arguments.target_error && arguments.uniform && job.options.method == Method::aaf)
-        refuse(
-            "--target-error: needs samples that differ from pixel to pixel; leave out --uniform");
-    if (arguments.target_error && !arguments.resume_file.empty())
-        refuse("--target-error: such a render cannot be resumed; give --spp instead");
     job.options.resume_file = arguments.resume_file;
-    job.options.checkpoint_interval_s = arguments.checkpoint_s;
-    if (!arguments.resume_file.empty() && job.options.method != Method::mc)
-        refuse("--resume: only renders by --method mc can be resumed");
+    if (arguments.checkpoint_s) job.options.checkpoint_interval_s = *arguments.checkpoint_s;
     job.options.local_size = arguments.local_size;
     job.options.tile_pixels = arguments.tile_pixels;
 

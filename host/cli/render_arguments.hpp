@@ -19,7 +19,7 @@ struct RenderArguments {
     std::vector<std::string> layers, heat;
     std::vector<std::string> asset_paths;
     std::string size, crop, pixel;
-    std::string sampler = "sobol", method, filter = "guarded", integrator = "path";
+    std::string sampler = "sobol", method, filter, integrator = "path";
     bool uniform = false;
     std::optional<float> mu;
     std::string bvh = "auto", bvh_quality = "medium";
@@ -28,12 +28,12 @@ struct RenderArguments {
     std::string tone = "srgb";
     std::optional<int> spp, bounces;
     std::optional<double> time_s, target_error;
-    std::string target_metric = "relmse";
+    std::string target_metric;
     std::string seed = "0";
     uint32_t sample_offset = 0, local_size = 0, tile_pixels = 0;
     std::string device, kernel_dir;
     std::string resume_file;
-    double checkpoint_s = 30;
+    std::optional<double> checkpoint_s;
     bool quiet = false;
 };
 

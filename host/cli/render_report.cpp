@@ -15,6 +15,17 @@ std::string headline(const RenderStats& stats) {
     return stats.failure.empty() ? "rendered" : "failed early, saved";
 }
 
+bool misses_target(const EstimatedError& error, const RenderOptions& options) {
+    const bool rmse = options.target_metric == ErrorMetric::rmse;
+    return options.target_error && (rmse ? error.rmse : error.rel_mse) > *options.target_error;
+}
+
+std::string missed_target(const RenderOptions& options) {
+    return fmt::format(
+        "; the target, {} {:.3g}, was not reached: raise what ended it, --spp, --mu or --time",
+        options.target_metric == ErrorMetric::rmse ? "RMSE" : "relMSE", *options.target_error);
+}
+
 }  // namespace
 
 double samples_per_pixel(const RenderStats& stats, const Scene& scene,
@@ -46,10 +57,14 @@ void report(const RenderStats& stats, const Scene& scene, const RenderOptions& o
     say(fmt::format("  {} rays, {} rays/s; {} triangles, {} on the device",
                     text_of_count(double(stats.rays)), text_of_count(rate),
                     text_of_number(stats.triangles), text_of_bytes(stats.device_bytes)));
-    if (stats.mu > 0) say(fmt::format("  filtered with mu {:.3g}", stats.mu));
+    if (stats.mu > 0)
+        say(fmt::format("  {} with mu {:.3g}",
+                        options.filter == FilterMode::none ? "sampled, not filtered," : "filtered",
+                        stats.mu));
     if (const auto& error = stats.estimated_error)
-        say(fmt::format("  estimated error: RMSE {:.3g}, relMSE {:.3g}", error->rmse,
-                        error->rel_mse));
+        say(fmt::format("  estimated error: RMSE {:.3g}, relMSE {:.3g}{}", error->rmse,
+                        error->rel_mse,
+                        misses_target(*error, options) ? missed_target(options) : ""));
     say(fmt::format(
         "  scene {}, BVH {}, upload {}, kernels {} ({} given to the driver, {} from cache), render "
         "{}",

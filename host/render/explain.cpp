@@ -41,8 +41,10 @@ Line shadows(const Scene& scene, const Plan& plan) {
     if (plan.signals == 0) return {"soft shadows", "Monte Carlo", "the method filters nothing"};
     if (plan.shadow_lights == 0)
         return {"soft shadows", plan.other_lights ? "as other lamps" : "Monte Carlo",
-                fmt::format("most light is not of the {} most powerful of {} shining rectangles",
-                            WEDGE_MAX_SHADOW_LIGHTS, rects)};
+                rects > WEDGE_MAX_SHADOW_LIGHTS
+                    ? fmt::format("most light is not of the {} most powerful of {} rectangles",
+                                  WEDGE_MAX_SHADOW_LIGHTS, rects)
+                    : "most light is not of rectangles"};
     std::string why = fmt::format("on diffuse surfaces seen directly; {} of {} shining rectangles",
                                   plan.shadow_lights, rects);
     if (std::size_t(plan.shadow_lights) < rects) why += ", the most powerful";
@@ -81,7 +83,8 @@ std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
     lines.push_back(
         hemisphere("indirect, diffuse", bounces > 0 || sky, dark, plan.hemisphere, from));
     lines.push_back(hemisphere("indirect, gloss", (bounces > 0 || sky) && plan.specular,
-                               "no visible material has a lobe", plan.hemisphere, from));
+                               plan.specular ? dark : "no visible material has a lobe",
+                               plan.hemisphere, from));
     lines.push_back({"highlights", plan.specular ? "Monte Carlo" : "none",
                      plan.specular ? "the theory has no filter for lobes under lights"
                                    : "no visible material has a lobe"});

@@ -48,6 +48,18 @@ const std::vector<WrongCall> kWrongOptions{
     {{"--seed", "18446744073709551616"}, "--seed: must be a whole number from 0 to"},
     {{"--seed", "1e3"}, "--seed: must be"},
     {{"second.json"}, "second.json"},
+    {{"--size", "20000x20000"}, "20000x20000 are more than 268435456 pixels"},
+    {{"-o", "a.exr", "-o", "./a.exr"}, "would replace the file of --output"},
+    {{"-o", "a.exr", "--stats", "a.exr"}, "--stats a.exr: would replace the file of --output"},
+    {{"-o", "a.exr", "--resume", "a.exr"}, "--resume a.exr: would replace the file of --output"},
+    {{"--stats", "room.json"}, "--stats room.json: would replace the scene"},
+    {{"--method", "mc", "--mu", "2"}, "--mu: has no meaning without filters"},
+    {{"--method", "mc", "--filter", "none"}, "--filter: has no meaning without filters"},
+    {{"--sample-offset", "4", "--uniform"}, "--uniform: has no meaning without filters"},
+    {{"--method", "aaf", "--pixel", "3,4"}, "--pixel: replays path tracing alone"},
+    {{"--checkpoint", "3"}, "--checkpoint: says how often --resume saves"},
+    {{"--target-metric", "rmse"}, "--target-metric: says what --target-error is"},
+    {{"--integrator", "ao", "--bounces", "2"}, "--bounces: ambient occlusion has none"},
 };
 
 }  // namespace
