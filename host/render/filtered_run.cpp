@@ -16,6 +16,9 @@ constexpr float kFirstMu = 0.25f;
 constexpr float kLeastMu = 1.0f / 64;  // asks for hardly more than the probe
 // A given mu from this one on is measured twice: what a few samples happen to meet decides much.
 constexpr float kLooksTwiceFrom = 2, kFirstLookMu = 1;
+// Before they have run once: bandwidth and filters take as long as so many samples of every pixel,
+// two to eight by scene.
+constexpr double kFiltersInSamples = 5;
 // From round to round; the error goes with 1 / mu at best.
 constexpr double kLargestStep = 2, kSmallestStep = 1.08;
 
@@ -50,10 +53,10 @@ class FilteredRun {
     bool run() {
         const float last = last_mu(options_);
         float mu = first_mu(last);
-        bool complete = probe(mu);
+        if (!probe(mu)) return end_early();
         measure(mu);
         while (goes_in_rounds(options_) && !fits_in_time() && mu > kLeastMu) measure(mu /= 2);
-        complete = complete && sample(goes_in_rounds(options_) ? 1 : last / mu);
+        bool complete = sample(goes_in_rounds(options_) ? 1 : last / mu);
         while (complete && mu < last && !loop_.must_stop()) {
             const float next = goes_in_rounds(options_) ? next_mu(mu, last) : look_again(last);
             if (next == mu) break;
@@ -88,12 +91,22 @@ class FilteredRun {
         const auto probes = uint32_t(settings_.probe_samples);
         const double before_s = loop_.elapsed_s();
         // How many samples there will be is known only afterwards; until then progress guesses.
+        loop_.keep_time_for(kFiltersInSamples + kSampleBatch);
         const bool complete =
             loop_.run("probe", 0, probes, 4 * probes * filter_.pixel_count(), true);
+        loop_.keep_time_for(0);
         sampling_s_ += loop_.elapsed_s() - before_s;
         ends_.assign(filter_.pixel_count(), {probes, probes, probes, probes});
         filter_.write_sample_ends(ends_);
         return complete;
+    }
+
+    /// With a part of the probe. Where time ended it, all pixels have as many samples.
+    bool end_early() {
+        measure(std::min(kLeastMu, last_mu(options_)));
+        filter();
+        stats_.mu = settings_.mu;
+        return !stats_.interrupted;
     }
 
     /// Widths and counts; samples so far stay as they are.
@@ -175,7 +188,8 @@ class FilteredRun {
 
     /// Before the last filter.
     double time_left_s() const {
-        return *options_.time_limit_s - loop_.elapsed_s() - filter_s_.value_or(0);
+        return *options_.time_limit_s - loop_.elapsed_s() -
+               filter_s_.value_or(kFiltersInSamples * loop_.sample_s());
     }
 
     bool fits_in_time() const {

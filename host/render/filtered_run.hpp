@@ -1,5 +1,5 @@
-// Probe, measure, sample, filter (docs/filtering.md): once, twice where mu is large, or in rounds of
-// rising mu until time is over or the error is small enough.
+// Probe, measure, sample, filter (docs/filtering.md): once, twice where mu is large, or in rounds
+// of rising mu until time is over or the error is small enough.
 #pragma once
 
 #include <span>

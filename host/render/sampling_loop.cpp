@@ -12,7 +12,7 @@ bool SamplingLoop::must_stop(bool at_pass_end) {
         return true;
     }
     return options_.time_limit_s && at_pass_end && done_ > 0 &&
-           watch_.total() >= *options_.time_limit_s;
+           elapsed_s() + kept_samples_ * sample_s() >= *options_.time_limit_s;
 }
 
 void SamplingLoop::add_pass(const char* name, double device_s, uint64_t launches) {
@@ -31,9 +31,8 @@ bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t 
     if (checkpoints_) done_ += checkpoints_->begin(schedule, first);
     PassStats pass;
     bool stopped = false;
-    while (!(stopped = must_stop(schedule.at_pass_end()))) {
+    while (!schedule.is_done() && !(stopped = must_stop(schedule.at_pass_end()))) {
         std::optional<Work> work = schedule.next();
-        if (!work) break;
         work->probing = probing;
         const double seconds = tracer_.add_samples(*work);
         schedule.measured(seconds);

@@ -31,6 +31,14 @@ class SamplingLoop {
     uint64_t samples_done() const { return done_; }  ///< pixel samples
     double elapsed_s() const { return watch_.total(); }
 
+    /// Time is over as soon as there is no more than that of so many samples of every pixel.
+    void keep_time_for(double samples_per_pixel) { kept_samples_ = samples_per_pixel; }
+
+    /// Of a sample of every pixel, so far.
+    double sample_s() const {
+        return done_ > 0 ? elapsed_s() / double(done_) * double(tracer_.pixel_count()) : 0;
+    }
+
     /// Somebody said stop, or time is over and all pixels have the same samples.
     bool must_stop(bool at_pass_end = true);
 
@@ -41,6 +49,7 @@ class SamplingLoop {
     Checkpoints* checkpoints_ = nullptr;
     Stopwatch watch_;
     uint64_t done_ = 0;
+    double kept_samples_ = 0;
 };
 
 }  // namespace wedge::rendering

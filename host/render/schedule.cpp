@@ -33,7 +33,7 @@ void Schedule::begin_pass() {
 }
 
 std::optional<Work> Schedule::next() {
-    if (sample_ >= end_sample_ || pixels_ == 0) return std::nullopt;
+    if (is_done()) return std::nullopt;
     if (pixel_ == 0) begin_pass();
 
     double count = tile_pixels_;

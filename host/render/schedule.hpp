@@ -20,6 +20,8 @@ class Schedule {
     /// `tile_pixels` 0: chosen from measured times.
     Schedule(uint32_t pixels, uint32_t first_sample, uint32_t samples, uint32_t tile_pixels);
 
+    bool is_done() const { return sample_ >= end_sample_ || pixels_ == 0; }
+
     /// The next launch, or nothing when all is done. All pixels get a range of samples before any
     /// gets the next.
     std::optional<Work> next();

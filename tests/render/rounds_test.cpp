@@ -140,6 +140,20 @@ TEST_CASE("rounds_that_do_not_fit_are_not_begun") {
     CHECK(frame.stats.estimated_error.has_value());
 }
 
+// Filters take as long as some samples of every pixel, and the next launch takes its time, too.
+TEST_CASE("a_probe_leaves_time_for_filters") {
+    RenderOptions options = filtered(1);
+    options.mu.reset();
+    options.time_limit_s = 1;
+    options.tile_pixels = 64 * 48;
+    options.on_progress = [](const Progress&) {  // after four samples of eight
+        std::this_thread::sleep_for(std::chrono::milliseconds(550));
+    };
+    const Frame frame = render(make_penumbra(LightProfile::uniform), options);
+    CHECK(frame.stats.samples == 4 * 64 * 48);
+    CHECK(frame.stats.estimated_error.has_value());
+}
+
 TEST_CASE("progress_goes_on_through_both_looks") {
     Scene scene = make_penumbra(LightProfile::uniform);
     scene.film = {32, 24};
