@@ -31,6 +31,8 @@ namespace fs = std::filesystem;
 /// Layers and the files of their heat maps.
 using HeatFiles = std::vector<std::pair<std::string, fs::path>>;
 
+constexpr const char* kStoppedEarly = "stopped before the first sample; no image was written";
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -63,7 +65,14 @@ Frame render_with_progress(const Scene& scene, RenderOptions options) {
     ProgressDisplay display(options.time_limit_s);
     options.stop = &InterruptScope::requested();
     options.on_progress = [&](const Progress& progress) { display.update(progress); };
-    return render(scene, options);
+    try {
+        return render(scene, options);
+    } catch (const Error& error) {
+        // A compiler of kernels may catch the same signal, and leave its work undone.
+        if (error.kind() != ErrorKind::device || !InterruptScope::requested()) throw;
+        say(kStoppedEarly);
+        throw Interrupted{};
+    }
 }
 
 void write_image(const fs::path& file, const Image& image, const std::vector<std::string>& layers,
@@ -112,7 +121,7 @@ void write_stats(const std::string& file, const std::string& json) {
 [[noreturn]] void end_without_image(const RenderStats& stats) {
     if (!stats.interrupted)
         throw Error(ErrorKind::device, "no sample was rendered; no image was written");
-    say("stopped before the first sample; no image was written");
+    say(kStoppedEarly);
     throw Interrupted{};
 }
 
