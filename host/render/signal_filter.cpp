@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <numeric>
 
 #include "host/base/stopwatch.hpp"
@@ -18,6 +19,7 @@ template <typename... Args>
 void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
     cl_uint index = 0;
     (kernel.setArg(index++, args), ...);
+    assert(index == kernel.getInfo<CL_KERNEL_NUM_ARGS>());
 }
 
 /// Direct and indirect light, as far as they are filtered.
@@ -73,7 +75,7 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
              shared_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals),
                            uint64_t(plan_parts(plan))) *
              sizeof(float)},
-        {"filter widths", entries * sizeof(float)},
+        {"filter widths, edges of surfaces", (entries + pixels) * sizeof(float)},
         {"unshadowed light",
          uint64_t(plan.shadow_lights) * (surfaces * reflected_sums(plan) * sizeof(shared::float4) +
                                          pixels * corrections(plan) * sizeof(float))},

@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include "filter_scenes.hpp"
+#include "host/render/plan.hpp"
+#include "host/render/signal_filter.hpp"
 #include "wedge/shared/filter.h"
 
 namespace wedge::test {
@@ -138,6 +140,24 @@ TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
     // say of the pixel and of its neighbourhood, and errors, have room in the memory of means.
     const uint64_t entries = 32 * 24 * WEDGE_SURFACES;
     CHECK(more == entries * (32 + 64 + 16 + 4));
+}
+
+TEST_CASE("memory_that_is_told_is_what_filters_take") {
+    Scene scene = make_room(20);
+    scene.film = {256, 192};
+    for (int bounces : {0, 1}) {
+        const auto bytes = [&](Method method) {
+            RenderOptions options = quick(4, bounces);
+            options.method = method;
+            options.adaptive = false;
+            return double(render(scene, options).stats.device_bytes);
+        };
+        double told = 0;
+        for (const rendering::FilterBuffer& buffer : rendering::filter_buffers(
+                 rendering::make_plan(scene, Method::aaf, bounces), 256 * 192))
+            told += double(buffer.bytes);
+        CHECK(told == doctest::Approx(bytes(Method::aaf) - bytes(Method::mc)).epsilon(0.01));
+    }
 }
 
 }  // namespace
