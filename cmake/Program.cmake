@@ -19,6 +19,7 @@ file(GLOB cli_sources CONFIGURE_DEPENDS host/cli/*.cpp bench/*.cpp)
 if(NOT WEDGE_WITH_IMAGE)
     list(REMOVE_ITEM cli_sources ${PROJECT_SOURCE_DIR}/host/cli/compare.cpp
         ${PROJECT_SOURCE_DIR}/host/cli/bench_converge.cpp
+        ${PROJECT_SOURCE_DIR}/host/cli/bench_options.cpp
         ${PROJECT_SOURCE_DIR}/host/cli/bench_peers.cpp
         ${PROJECT_SOURCE_DIR}/host/cli/bench_stability.cpp)
 endif()
