@@ -211,9 +211,9 @@ __kernel void filter_bandwidth(
     const float samples = samples_granted(settings->mu, fmax(theory, noise));
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
     const float least = (float)settings->least_samples;
-    const float power = nearest_power_of_two(clamp(samples, probes, cap));
+    const float rounded = nearest_power_of_two(clamp(samples, probes, cap));
     const SampleEnds before = sample_ends[pixel];
-    const uint end = max((uint)clamp(power, least, cap), before.paths_before);
+    const uint end = max((uint)clamp(rounded, least, cap), before.paths_before);
     const SurfaceSums surfaces = {surface_sums, more};
     const bool is_edge = ends[at] > 0.0f || has_more_surfaces(film + pixel, surface_sums + pixel);
     const Contrast contrast = contrast_at(film, surfaces, is_edge, x, y, width, height);

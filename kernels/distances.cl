@@ -108,9 +108,9 @@ typedef struct {
 /* Probe samples that find no occluder say little about penumbrae near by: the pixel takes the mean
    of those of its neighbours that found one, as in the thesis, section 3.6. Nearest reflectors are
    a matter of luck with few samples: means over a few pixels vary less. */
-#define NEIGHBOURHOOD_PX 5
-#define SMOOTHING_PX 2
-#define VARIANCE_PX 1
+#define WEDGE_NEIGHBOURHOOD_PX 5
+#define WEDGE_SMOOTHING_PX 2
+#define WEDGE_VARIANCE_PX 1
 
 /* Sums over pixels that show a surface, of those numbers that are known. */
 typedef struct {
@@ -146,7 +146,7 @@ inline void add_step(const Neighbours* n, const Places8* p, int i, int j,
         if (!lane_bits8(is_there)) return;
         const int8 is_same = is_there & is_same_surface8(p, &q);
         for (int s = 0; s < WEDGE_SIGNALS; ++s) {
-            if (max(abs(i), abs(j)) <= VARIANCE_PX)
+            if (max(abs(i), abs(j)) <= WEDGE_VARIANCE_PX)
                 add_variance(sums + s, load_found(n, other, s, WEDGE_FOUND_VARIANCE, at), is_same);
             if (!is_light(s))
                 add_found(sums + s, load_found(n, other, s, WEDGE_FOUND_LEAST, at),
@@ -158,15 +158,15 @@ inline void add_step(const Neighbours* n, const Places8* p, int i, int j,
 /* True if a row of the neighbourhood, `at` in its middle, found anything on such surfaces. Three times
    eight pixels are all of it. */
 inline bool is_any_found(const Neighbours* n, int surface, int signal, ulong at) {
-    const float8 left = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at - NEIGHBOURHOOD_PX);
-    const float8 right = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at + NEIGHBOURHOOD_PX);
+    const float8 left = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at - WEDGE_NEIGHBOURHOOD_PX);
+    const float8 right = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at + WEDGE_NEIGHBOURHOOD_PX);
     const float8 middle = load_found(n, surface, signal, WEDGE_FOUND_LEAST, at);
     return lane_bits8((left >= 0.0f) | (middle >= 0.0f) | (right >= 0.0f));
 }
 
 inline void add_row(const Neighbours* n, const Places8* p, int signal, int other, ulong row,
                     FoundSums* sums) {
-    for (int i = -NEIGHBOURHOOD_PX; i <= NEIGHBOURHOOD_PX; ++i) {
+    for (int i = -WEDGE_NEIGHBOURHOOD_PX; i <= WEDGE_NEIGHBOURHOOD_PX; ++i) {
         const ulong at = row + (ulong)(long)i;
         const float8 least = load_found(n, other, signal, WEDGE_FOUND_LEAST, at);
         const int8 is_known = is_on_row(&n->planes, &n->group, i) & (least >= 0.0f);
@@ -179,8 +179,8 @@ inline void add_row(const Neighbours* n, const Places8* p, int signal, int other
 
 /* Of a light, over the whole neighbourhood. Most of it mostly found nothing. */
 inline void add_neighbourhood(const Neighbours* n, const Places8* p, int signal, FoundSums* sums) {
-    const int above = min(n->group.y, NEIGHBOURHOOD_PX);
-    const int below = min(n->planes.height - 1 - n->group.y, NEIGHBOURHOOD_PX);
+    const int above = min(n->group.y, WEDGE_NEIGHBOURHOOD_PX);
+    const int below = min(n->planes.height - 1 - n->group.y, WEDGE_NEIGHBOURHOOD_PX);
     for (int j = -above; j <= below; ++j) {
         const ulong row = n->group.at + (ulong)((long)j * n->planes.pitch);
         for (int other = 0; other < WEDGE_SURFACES; ++other)
@@ -235,7 +235,7 @@ __kernel void filter_neighbours(__global const float* restrict places,
     Neighbours n = {places, found, make_planes(width, height)};
     n.group = group_in_rows(&n.planes, (int)get_global_id(0));
     if (!is_on_film(&n.planes, &n.group)) return;
-    const int radius = WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS ? SMOOTHING_PX : VARIANCE_PX;
+    const int radius = WEDGE_SIGNALS > WEDGE_SHADOW_LIGHTS ? WEDGE_SMOOTHING_PX : WEDGE_VARIANCE_PX;
     const int above = min(n.group.y, radius), below = min(height - 1 - n.group.y, radius);
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
         const Places8 p = load_places8(&n.planes, places, surface, n.group.at);

@@ -269,8 +269,8 @@ inline void add_sampled(const Planes* planes, const Group* group, const PixelSum
             if (id < 0) break;
             __global const float4* of_surface = signal_sums + 2u * (uint)id * WEDGE_SIGNALS;
             __global const SurfaceSum* surface_sum = sums->surfaces + id;
-            for (int light = 0; light < WEDGE_SHADOW_LIGHTS; ++light)
-                add_sampled_light(parts + WEDGE_PART_DIRECT, of_surface + 2 * light, surface_sum, samples);
+            for (int signal = 0; signal < WEDGE_SHADOW_LIGHTS; ++signal)
+                add_sampled_light(parts + WEDGE_PART_DIRECT, of_surface + 2 * signal, surface_sum, samples);
             if (WEDGE_DIRECT_SIGNALS > WEDGE_SHADOW_LIGHTS)
                 add_sampled_others(parts + WEDGE_PART_DIRECT, of_surface + 2 * WEDGE_SIGNAL_OTHERS, surface_sum,
                                    samples);

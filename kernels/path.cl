@@ -135,23 +135,17 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
     const SampleEnds ends = sample_ends[pixel];
     const uint end = min(first_sample + sample_count, max(ends.paths, ends.camera_rays));
     sample_count = end > first_sample ? end - first_sample : 0u;
-    PixelSignals signals = {all_surfaces,
-                            more_surfaces,
-                            params->crop_width * params->crop_height,
-                            (int)pixel,
-                            all_sums,
-                            all_distances,
-                            all_reflected,
-                            all_unfiltered + pixel,
-                            all_remainders + pixel,
-                            filter_settings->pixel_angle,
-                            0,
-                            0,
-                            probing,
-                            0,
-                            0,
-                            0,
-                            0};
+    PixelSignals signals = {.surfaces = all_surfaces,
+                            .more = more_surfaces,
+                            .pixels = params->crop_width * params->crop_height,
+                            .pixel = (int)pixel,
+                            .sums = all_sums,
+                            .distances = all_distances,
+                            .reflected = all_reflected,
+                            .unfiltered = all_unfiltered + pixel,
+                            .remainder = all_remainders + pixel,
+                            .pixel_angle = filter_settings->pixel_angle,
+                            .probing = probing};
 #endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {
         FilmPixel sum = empty_film_pixel();
