@@ -9,6 +9,7 @@
 #include "bench/converge/session.hpp"
 #include "host/cli/bench_options.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/image_support.hpp"
 #include "host/cli/messages.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
@@ -49,6 +50,7 @@ converge::Config make_config(const ConvergeArguments& a, const std::string& comm
 
 void run(const ConvergeArguments& arguments, const std::string& command) {
     converge::Config config = make_config(arguments, command);
+    if (!arguments.markdown.empty()) check_output(arguments.markdown);
     measure_until_stopped(config, arguments, [&](const LoadOptions& load) {
         const converge::Outcome outcome = converge::converge(
             config, load, arguments.markdown, [](const std::string& line) { say(line); });

@@ -8,6 +8,7 @@
 #include "bench/stability/session.hpp"
 #include "host/cli/bench_options.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/image_support.hpp"
 #include "host/cli/messages.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
@@ -44,6 +45,7 @@ converge::Config make_config(const StabilityArguments& a, const std::string& com
 void run(const StabilityArguments& arguments, const std::string& command) {
     stability::Suite suite;
     converge::Config config = make_config(arguments, command, suite);
+    if (!arguments.markdown.empty()) check_output(arguments.markdown);
     measure_until_stopped(config, arguments, [&](const LoadOptions& load) {
         const stability::Outcome outcome = stability::run_suite(
             suite, config, load, arguments.markdown, [](const std::string& line) { say(line); });

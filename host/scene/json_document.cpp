@@ -46,18 +46,31 @@ class Guard {
         if (depth > kDeepestNesting)
             throw Error(ErrorKind::bad_input,
                         fmt::format("{}: nested deeper than {} levels", file_, kDeepestNesting));
-        if (event == Event::object_start) keys_of_.emplace_back();
-        if (event == Event::object_end) keys_of_.pop_back();
-        if (event == Event::key && !keys_of_.back().insert(parsed.get<std::string>()).second)
-            throw Error(ErrorKind::bad_input,
-                        fmt::format("{}: the key \"{}\" is given twice in one object", file_,
-                                    parsed.get<std::string>()));
+        if (event == Event::object_start) open_.emplace_back();
+        if (event == Event::object_end) open_.pop_back();
+        if (event == Event::key) take_key(parsed.get<std::string>());
         return true;
     }
 
   private:
+    struct Object {
+        std::set<std::string> keys;
+        std::string last;  ///< of these
+    };
+
+    void take_key(const std::string& key) {
+        Object& object = open_.back();
+        object.last = key;
+        if (object.keys.insert(key).second) return;
+        std::string place = open_.size() > 1 ? "in " : "at the top";
+        for (std::size_t i = 0; i + 1 < open_.size(); ++i) place += "/" + open_[i].last;
+        throw Error(
+            ErrorKind::bad_input,
+            fmt::format("{}: the key \"{}\" is given twice in one object, {}", file_, key, place));
+    }
+
     const std::string& file_;
-    std::vector<std::set<std::string>> keys_of_;  ///< of the objects that are open
+    std::vector<Object> open_;  ///< from the outermost on
 };
 
 }  // namespace

@@ -57,6 +57,12 @@ TEST_CASE("benches_that_cannot_write_say_so") {
         CHECK(result.exit_code == kOutput);
         CHECK(result.err_has(folder));
     }
+    // Said before hours of measuring.
+    const ProcessResult result =
+        bench.wedge({"bench", "converge", "room.json", "--size", "8", "--markdown", "absent/t.md"});
+    CHECK(result.exit_code == kOutput);
+    CHECK(result.err_has("absent/t.md"));
+    CHECK_FALSE(bench.has("converge-room"));
 }
 
 TEST_CASE("full_disk_is_told_and_leaves_no_file") {

@@ -73,7 +73,7 @@ TEST_CASE("exponents_of_mtl_stay_in_range") {
     CHECK(exponent("1e7", 1) == 1e6f);
     CHECK(exponent("-3", 1) == 0);
     CHECK(exponent("nan", 1) == 0);
-    CHECK(exponent("1e999", 1) >= 0);
+    CHECK(exponent("1e999", 1) == 0);
 }
 
 TEST_CASE("texture_options_that_are_no_numbers_take_their_defaults") {

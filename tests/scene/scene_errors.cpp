@@ -60,7 +60,10 @@ TEST_CASE("hostile_nesting_is_refused") {
 }
 
 TEST_CASE("keys_given_twice_are_refused") {
-    CHECK(contains(error_of("{\"name\": \"a\", \"name\": \"b\"}"), "\"name\" is given twice"));
+    CHECK(contains(error_of("{\"name\": \"a\", \"name\": \"b\"}"),
+                   "\"name\" is given twice in one object, at the top"));
+    CHECK(contains(error_of("{\"materials\": {\"a\": {}, \"b\": {\"kd\": 1, \"kd\": 0}}}"),
+                   "\"kd\" is given twice in one object, in /materials/b"));
     // The same key in two objects is none of that.
     CHECK_NOTHROW(
         load_text(scene_text("", "", R"({"a": {"obj": "t.obj"}, "b": {"obj": "t.obj"}})")));
