@@ -20,7 +20,7 @@ import numpy as np
 from equal_time import read, render, rgb, show, tone
 
 # Scene and mu.
-ROWS = [("grids", 0.5), ("sponza", 2), ("stability/wires", 4)]
+ROWS = [("grids", 0.5), ("stability/wires", 4)]
 SEEDS = 8
 BLOCK = 16
 
@@ -72,7 +72,7 @@ def draw_row(axes, program, folders, temporary, scene, mu):
 
 
 def main(program, out, *folders):
-    figure, axes = plt.subplots(len(ROWS), 4, figsize=(13, 7.5), layout="constrained")
+    figure, axes = plt.subplots(len(ROWS), 4, figsize=(13, 5), layout="constrained")
     with tempfile.TemporaryDirectory() as temporary:
         for row, (scene, mu) in zip(axes, ROWS):
             draw_row(row, program, folders, temporary, scene, mu)
