@@ -101,12 +101,33 @@ inline void add_unfiltered(const PixelSignals* signals, const PathResult* r) {
     if (signals->half_index == 1) sums->rest.w += luminance(rest);
 }
 
-#define WEDGE_IS_WHOLE_PATH (!signals.camera_only)
-#define WEDGE_IS_NEW_RAY (!signals.known)
-#else
-#define WEDGE_IS_WHOLE_PATH true
-#define WEDGE_IS_NEW_RAY true
+/* What sample `sample` of the pixel is for. False: nothing, the pixel has it or does not want it. */
+WEDGE_ALWAYS_INLINE bool begin_sample(PixelSignals* signals, SampleEnds ends, uint sample) {
+    signals->camera_only = sample >= ends.paths;
+    signals->known = sample < ends.camera_rays_before;
+    if (signals->camera_only ? signals->known : sample < ends.paths_before) return false;
+    signals->sample = sample;
+    signals->half_index = sample & 1u;
+    signals->probing_lights = signals->probing && sample < WEDGE_LIGHT_PROBES;
+    return true;
+}
 #endif
+
+WEDGE_ALWAYS_INLINE void add_path(FilmPixel* sum, const PathResult* r WEDGE_SIGNAL_PARAMS) {
+#if WEDGE_SIGNALS > 0
+    const bool is_new_ray = !signals->known;
+    if (signals->camera_only) {
+        add_camera_sample(sum, r->emission, r->rays);
+    } else {
+        add_sample(sum, r->emission, r->direct, r->indirect, r->rays, is_new_ray ? 1.0f : 0.0f);
+        add_unfiltered(signals, r);
+    }
+#else
+    const bool is_new_ray = true;
+    add_sample(sum, r->emission, r->direct, r->indirect, r->rays, 1.0f);
+#endif
+    if (is_new_ray) add_first_hit(sum, r->hit, r->albedo, r->depth, r->normal, r->position);
+}
 
 /* Adds samples [first_sample, first_sample + sample_count) to the pixels [first_pixel, first_pixel
    + pixel_count) of the crop, counted along its rows; with filters, to those of pixel_list, and what
@@ -152,21 +173,14 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
         for (uint i = 0; i < WEDGE_SAMPLE_BATCH && batch + i < sample_count; ++i) {
             const uint sample = first_sample + batch + i;
 #if WEDGE_SIGNALS > 0
-            signals.camera_only = sample >= ends.paths;
-            signals.known = sample < ends.camera_rays_before;
-            if (signals.camera_only ? signals.known : sample < ends.paths_before) continue;
+            if (!begin_sample(&signals, ends, sample)) continue;
+            const Sampler whole = make_sampler(params->sampler, params->seed, 1,
+                                               (uint)params->strata, code, sample);
+            signals.whole = &whole;
 #endif
             const Sampler sampler =
                 make_sampler(params->sampler, params->seed, params->sequences,
                              (uint)params->strata, code, sample);
-#if WEDGE_SIGNALS > 0
-            const Sampler whole = make_sampler(params->sampler, params->seed, 1,
-                                               (uint)params->strata, code, sample);
-            signals.whole = &whole;
-            signals.sample = sample;
-            signals.half_index = sample & 1u;
-            signals.probing_lights = probing && sample < WEDGE_LIGHT_PROBES;
-#endif
             const float2 jitter =
                 draw_film(&sampler, params->seed, params->sequences, code, sample);
             const Ray ray = camera_ray(&camera, (float2)((float)x + jitter.x, (float)y + jitter.y));
@@ -174,17 +188,7 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                 trace_path(&scene, params, ray, view_axis,
                            &sampler WEDGE_SIGNAL_ARGS WEDGE_IF_REPLAY(
                                , record + (batch + i) * (uint)(params->bounces + 2)));
-            if (WEDGE_IS_WHOLE_PATH)
-                add_sample(&sum, r.emission, r.direct, r.indirect, r.rays,
-                           WEDGE_IS_NEW_RAY ? 1.0f : 0.0f);
-#if WEDGE_SIGNALS > 0
-            if (signals.camera_only)
-                add_camera_sample(&sum, r.emission, r.rays);
-            else
-                add_unfiltered(&signals, &r);
-#endif
-            if (WEDGE_IS_NEW_RAY)
-                add_first_hit(&sum, r.hit, r.albedo, r.depth, r.normal, r.position);
+            add_path(&sum, &r WEDGE_SIGNAL_ARGS);
         }
         film[pixel] = sum_film_pixels(film[pixel], sum);
     }
