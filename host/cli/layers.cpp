@@ -14,6 +14,9 @@ constexpr std::array kLayers{"direct", "indirect", "emission", "albedo", "N",
                              "P",      "Z",        "variance", "spp",    "width",
                              "guard",  "near",     "far",      "error",  "unfiltered"};
 
+/// Those that only filtered renders have.
+constexpr std::array kFilteredLayers{"width", "guard", "near", "far", "error", "unfiltered"};
+
 bool same_name(const std::string& a, const char* b) {
     return strcasecmp(a.c_str(), b) == 0;
 }
@@ -54,6 +57,16 @@ std::vector<std::string> parse_layers(const std::vector<std::string>& names) {
                      });
     if (all) layers.assign(kLayers.begin(), kLayers.end());
     return layers;
+}
+
+void check_layers(const std::vector<std::string>& layers, Method method) {
+    if (method == Method::aaf || layers.size() == kLayers.size()) return;
+    for (const std::string& layer : layers)
+        if (std::find(kFilteredLayers.begin(), kFilteredLayers.end(), layer) !=
+            kFilteredLayers.end())
+            throw Error(ErrorKind::usage,
+                        "--aov " + layer +
+                            ": --method mc has no such layer; use --method aaf, or --aov all");
 }
 
 bool holds_only(const Image& image, const std::vector<std::string>& layers) {

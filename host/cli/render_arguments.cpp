@@ -193,6 +193,7 @@ RenderJob check_arguments(const RenderArguments& arguments) {
 
     job.outputs = output_files(arguments);
     job.layers = parse_layers(arguments.layers);
+    check_layers(job.layers, job.options.method);
     check_heat_names(arguments.heat);
     job.heat = arguments.heat;
     if (!arguments.size.empty()) job.film = parse_size(arguments.size);

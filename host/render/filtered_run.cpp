@@ -53,7 +53,7 @@ class FilteredRun {
     bool run() {
         const float last = last_mu(options_);
         float mu = first_mu(last);
-        if (!probe(mu)) return end_early();
+        if (!probe(mu)) return end_early(mu);
         measure(mu);
         while (goes_in_rounds(options_) && !fits_in_time() && mu > kLeastMu) measure(mu /= 2);
         bool complete = sample(goes_in_rounds(options_) ? 1 : last / mu);
@@ -102,8 +102,8 @@ class FilteredRun {
     }
 
     /// With a part of the probe. Where time ended it, all pixels have as many samples.
-    bool end_early() {
-        measure(std::min(kLeastMu, last_mu(options_)));
+    bool end_early(float mu) {
+        measure(goes_in_rounds(options_) ? std::min(kLeastMu, mu) : mu);
         filter();
         stats_.mu = settings_.mu;
         return !stats_.interrupted;

@@ -57,6 +57,7 @@ const std::vector<WrongCall> kWrongOptions{
     {{"--method", "mc", "--filter", "none"}, "--filter: has no meaning without filters"},
     {{"--sample-offset", "4", "--uniform"}, "--uniform: has no meaning without filters"},
     {{"--method", "aaf", "--pixel", "3,4"}, "--pixel: replays path tracing alone"},
+    {{"--method", "mc", "--aov", "N,width"}, "--aov width: --method mc has no such layer"},
     {{"--checkpoint", "3"}, "--checkpoint: says how often --resume saves"},
     {{"--target-metric", "rmse"}, "--target-metric: says what --target-error is"},
     {{"--integrator", "ao", "--bounces", "2"}, "--bounces: ambient occlusion has none"},
