@@ -8,6 +8,7 @@
 #include "bench/converge/reference_margin.hpp"
 #include "bench/converge/session.hpp"
 #include "host/cli/bench_options.hpp"
+#include "host/cli/command_text.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/image_support.hpp"
 #include "host/cli/messages.hpp"

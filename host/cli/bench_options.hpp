@@ -33,10 +33,6 @@ void add_budgets(CLI::App& command, MeasuringArguments& arguments, const std::st
 /// What was typed, over what `config` has already.
 void take_measuring_arguments(const MeasuringArguments& arguments, converge::Config& config);
 
-/// The command as it was typed, for reports, but for where its results go: whoever repeats it has
-/// folders of their own.
-std::string command_text(const CLI::App& command);
-
 /// Runs `measure` until it is done or the user stops it, which throws Interrupted.
 void measure_until_stopped(converge::Config& config, const MeasuringArguments& arguments,
                            const std::function<void(const LoadOptions& load)>& measure);

@@ -11,6 +11,7 @@
 #include "bench/converge/session.hpp"
 #include "bench/peers/scene_export.hpp"
 #include "host/cli/bench_options.hpp"
+#include "host/cli/command_text.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/messages.hpp"
 #include "wedge/error.hpp"
