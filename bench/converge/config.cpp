@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-
 [[noreturn]] void refuse(const std::string& message) {
     throw Error(ErrorKind::usage, message);
 }

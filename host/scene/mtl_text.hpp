@@ -1,4 +1,5 @@
-// What the text of an MTL file cannot mean, or leaves unsaid, and the parser makes up without a word.
+// The text of an MTL file before it is parsed: the parser takes what cannot be meant, and makes up
+// what is left unsaid, without a word.
 #pragma once
 
 #include <string>
