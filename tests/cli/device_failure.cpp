@@ -86,6 +86,18 @@ TEST_CASE("refused_kernel_build_names_kernel_and_status") {
     CHECK(bench.files() == std::set<std::string>{"room.json", "room.obj"});
 }
 
+TEST_CASE("ctrl_c_that_makes_a_kernel_build_fail_is_no_fault_of_the_device") {
+    const Workbench bench;
+    write_room(bench);
+    ProcessSettings settings = failing("clBuildProgram", 1, -11);
+    settings.environment["WEDGE_TEST_SIGNAL"] = "1";
+    const ProcessResult result = bench.wedge(render_with({}), settings);
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 130);
+    CHECK(result.err_has("stopped before the first sample; no image was written"));
+    CHECK(!bench.has("a.exr"));
+}
+
 TEST_CASE("samples_from_before_a_refused_launch_or_a_lost_event_are_saved") {
     constexpr double kAll = 32 * 24 * 64;
     for (const char* function : {"clEnqueueNDRangeKernel", "clWaitForEvents"})

@@ -129,6 +129,23 @@ TEST_CASE("aov_chooses_the_layers_of_the_exr") {
     }
 }
 
+TEST_CASE("a_target_that_was_not_reached_is_told") {
+    const Workbench bench;
+    write_room(bench);
+    const auto told = [&](const std::vector<std::string>& end) {
+        std::vector<std::string> arguments = {"render", "room.json", "-o", "out.exr"};
+        arguments.insert(arguments.end(), end.begin(), end.end());
+        const ProcessResult result = bench.wedge(arguments);
+        CHECK(result.exit_code == 0);
+        return result.err_has("was not reached");
+    };
+    CHECK(told({"--target-error", "1e-12", "--mu", "0.5"}));
+    CHECK(told({"--target-error", "1e-12", "--method", "mc", "--spp", "32"}));
+    CHECK(told({"--target-error", "1e-12", "--target-metric", "rmse", "--mu", "0.5"}));
+    CHECK_FALSE(told({"--target-error", "100", "--mu", "0.5"}));
+    CHECK_FALSE(told({"--mu", "0.5"}));
+}
+
 TEST_CASE("time_limit_ends_the_render") {
     const Workbench bench;
     write_room(bench);

@@ -22,6 +22,17 @@ TEST_CASE("explain_names_what_a_plan_has_and_no_more") {
     CHECK(explain(make_room(0), quick(1, 0)).find("plain Monte Carlo") != std::string::npos);
 }
 
+TEST_CASE("explain_gives_the_reason_that_there_is") {
+    // Gloss, but nothing that it could show.
+    CHECK(explain(make_room(20), filtered(1)).find("none         no bounces and no background") !=
+          std::string::npos);
+    const std::string shiny = explain(make_room(20), filtered(1));
+    CHECK(shiny.find("no visible material has a lobe") == std::string::npos);
+    Scene scene = make_penumbra(LightProfile::uniform);
+    scene.point_lights = {{.position = {0, 3, 0}, .intensity = Vec3(1e4f)}};
+    CHECK(explain(scene, filtered(1)).find("most light is not of rectangles") != std::string::npos);
+}
+
 TEST_CASE("shadows_are_filtered_where_most_light_can_be") {
     // Nine equal lamps, of which four can be filtered; then one that outshines the others.
     Scene scene = make_penumbra(LightProfile::uniform);

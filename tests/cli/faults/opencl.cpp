@@ -1,11 +1,13 @@
 // Stands between the program and OpenCL (LD_PRELOAD) and lets one function fail from its n-th call
 // on, as a device does that has gone: WEDGE_TEST_FAULT="clCreateBuffer 5 -4" is function, call,
-// status. WEDGE_TEST_LARGEST_BUFFER is the size in bytes of the largest buffer that devices claim
-// to have. So failures are tested on the program as it is, without a door for them in it.
+// status. With WEDGE_TEST_SIGNAL=1 Ctrl-C comes at the first of them, too.
+// WEDGE_TEST_LARGEST_BUFFER is the size in bytes of the largest buffer that devices claim to have.
+// So failures are tested on the program as it is, without a door for them in it.
 #include <CL/cl.h>
 #include <dlfcn.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -28,7 +30,9 @@ cl_int injected(const char* function) {
     static const Fault fault;
     static std::atomic<int> calls{0};
     if (std::strcmp(function, fault.function) != 0) return CL_SUCCESS;
-    return ++calls >= fault.call ? fault.status : CL_SUCCESS;
+    const int call = ++calls;
+    if (call == fault.call && std::getenv("WEDGE_TEST_SIGNAL")) std::raise(SIGINT);
+    return call >= fault.call ? fault.status : CL_SUCCESS;
 }
 
 template <typename Function>
