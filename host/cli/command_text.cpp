@@ -9,7 +9,6 @@
 #include <vector>
 
 namespace wedge::cli {
-
 namespace {
 
 /// Where results go, and what they are called.
