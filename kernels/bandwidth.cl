@@ -9,6 +9,7 @@
 #include "lib/probe_planes.clh"
 #include "lib/rest_noise.clh"
 #include "lib/signals.clh"
+#include "lib/thin_things.clh"
 #include "wedge/shared/frame.h"
 
 /* Standard deviation taken for a light's profile; a uniform one is as wide as its half side. */
@@ -98,7 +99,7 @@ inline float nearest_power_of_two(float v) {
    near by. A pixel that has one gets as many camera rays as it would get paths if it needed them, and one
    beside it a few more than the probe's, which may have missed it. Textures have colours that differ
    everywhere. */
-#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; with its 0.8th power */
+#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; with its 0.8th power; also where something thin is not found */
 #define WEDGE_LEAST_AT_COLOURS 64.0f   /* for mu = 1; with its root, as the next */
 #define WEDGE_LEAST_BESIDE_EDGES 16.0f
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
@@ -114,10 +115,14 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
     return (uint)nearest_power_of_two(clamp(n, fmin(least_rays, most), most));
 }
 
+inline float least_at_edges(__constant FilterSettings* settings) {
+    return WEDGE_LEAST_AT_EDGES * power(settings->mu, 0.8f);
+}
+
 /* Of a pixel with these contrasts. `is_edge`: of geometry. */
 inline uint camera_rays_of(__constant FilterSettings* settings, Contrast c, bool is_edge, float mean_brightness) {
     const float root = sqrt(settings->mu);
-    const float least = is_edge ? WEDGE_LEAST_AT_EDGES * power(settings->mu, 0.8f) : WEDGE_LEAST_AT_COLOURS * root;
+    const float least = is_edge ? least_at_edges(settings) : WEDGE_LEAST_AT_COLOURS * root;
     const uint here = camera_rays(settings, fmax(c.across, c.inside), mean_brightness, least);
     return max(here, camera_rays(settings, c.beside, mean_brightness, WEDGE_LEAST_BESIDE_EDGES * root));
 }
@@ -166,11 +171,12 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
     return need;
 }
 
-/* near_by, ends: of filter_neighbours in distances.cl. sigmas: world units, 0 where nothing is to
+/* near_by, ends, nearness: of filter_neighbours and filter_thin_things in distances.cl. sigmas: world units, 0 where nothing is to
    be filtered. sample_ends: paths a pixel is brought to are a power of two, which the sampler likes
    best; what it has already stays. */
 __kernel void filter_bandwidth(
-    __constant FilterSettings* settings, __global const Light* restrict lights,
+    __constant FilterSettings* settings, __global const FrameParams* restrict params,
+    __global const Light* restrict lights, __global const float* restrict nearness,
     __global const FilmPixel* restrict film, __global const SurfaceSum* restrict surface_sums,
     __global const uint* restrict more, __global const float* restrict places,
     __global const float* restrict near_by,
@@ -217,7 +223,9 @@ __kernel void filter_bandwidth(
     const SurfaceSums surfaces = {surface_sums, more};
     const bool is_edge = ends[at] > 0.0f || has_more_surfaces(film + pixel, surface_sums + pixel);
     const Contrast contrast = contrast_at(film, surfaces, is_edge, x, y, width, height);
-    const uint rays = camera_rays_of(settings, contrast, is_edge, mean_brightness);
+    uint rays = camera_rays_of(settings, contrast, is_edge, mean_brightness);
+    if (misses_thin_thing(params, nearness[pixel], &planes, places, x, y))
+        rays = max(rays, (uint)nearest_power_of_two(least_at_edges(settings)));
     sample_ends[pixel].paths = end;
     sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
 }

@@ -1,4 +1,5 @@
 /* What the probe (path.cl) met, made ready for frequency analysis (bandwidth.cl):
+     filter_thin_things what it may have missed
      filter_surfaces    where each surface of a pixel was met
      filter_distances   probe samples' distances to the slopes or depths that decide frequencies
      filter_neighbours  the same, of pixels that found nothing or little from those around them
@@ -6,7 +7,25 @@
 #include "lib/filter_weight.clh"
 #include "lib/probe_planes.clh"
 #include "lib/signals.clh"
+#include "lib/thin_things.clh"
 #include "wedge/shared/frame.h"
+
+/* Work-items: entries of a list of triangles. nearness: by pixel of the crop, one over the depth of the nearest thin
+   thing, as bits of a float; 0 before. The camera does not move: this is needed once. */
+__kernel void filter_thin_things(__global const FrameParams* restrict params,
+                                 __global const ShadingVertex* restrict vertices,
+                                 __global const ShadingTriangle* restrict triangles,
+                                 __global const uint* restrict list, uint count,
+                                 volatile __global uint* restrict nearness) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const ShadingTriangle t = triangles[list[id]];
+    const uint at[3] = {t.v0, t.v1, t.v2};
+    float3 corners[3];
+    for (int k = 0; k < 3; ++k) corners[k] = (float3)(vertices[at[k]].px, vertices[at[k]].py, vertices[at[k]].pz);
+    const View view = view_of(params);
+    mark_if_thin(&view, nearness, corners);
+}
 
 inline void set_place(const Planes* planes, __global float* places, int surface, ulong at,
                       float3 position, float3 normal, float size, float slanted_size) {

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "host/base/srgb.hpp"
+#include "host/render/long_triangles.hpp"
 
 namespace wedge::rendering {
 namespace {
@@ -80,6 +81,13 @@ DeviceScene upload_scene(device::Device& device, const FlatScene& flat, const bv
     scene.lights = upload(flat.lights, "lights");
     scene.light_count = cl_uint(flat.lights.size());
     return scene;
+}
+
+void upload_long_triangles(device::Device& device, const FlatScene& flat, DeviceScene& scene) {
+    const std::vector<uint32_t> list = find_long_triangles(flat);
+    scene.long_triangles =
+        device.upload_bytes(list.data(), list.size() * sizeof(list[0]), "list of long triangles");
+    scene.long_triangle_count = cl_uint(list.size());
 }
 
 }  // namespace wedge::rendering

@@ -14,6 +14,8 @@ struct DeviceScene {
     DeviceTree tree;
     cl::Buffer vertices, triangles, materials, textures, texels, lights;
     cl_uint light_count = 0;
+    cl::Buffer long_triangles;  ///< long_triangles.hpp, only where filters need them
+    cl_uint long_triangle_count = 0;
 
     /// Sets WEDGE_SCENE_PARAMS (kernels/lib/scene.clh) from argument `first` on; returns the next
     /// index.
@@ -23,5 +25,7 @@ struct DeviceScene {
 /// Throws Error(device) where something does not fit.
 DeviceScene upload_scene(device::Device& device, const FlatScene& flat, const bvh::Bvh& bvh,
                          const std::vector<Texture>& textures, const BvhOptions& options = {});
+
+void upload_long_triangles(device::Device& device, const FlatScene& flat, DeviceScene& scene);
 
 }  // namespace wedge::rendering

@@ -58,12 +58,13 @@ PathTracer::PathTracer(device::Device& device, const Scene& scene, const PathSet
       pixel_count_(uint32_t(settings.crop.width) * uint32_t(settings.crop.height)),
       local_size_(settings.local_size),
       vertices_per_path_(uint32_t(settings.bounces) + 2) {
-    upload(scene, settings, stats);
+    upload(scene, settings, plan, stats);
     compile(plan, settings, recording, stats);
     stats.device_bytes = device.allocated_bytes();
 }
 
-void PathTracer::upload(const Scene& scene, const PathSettings& settings, RenderStats& stats) {
+void PathTracer::upload(const Scene& scene, const PathSettings& settings, const Plan& plan,
+                        RenderStats& stats) {
     Stopwatch watch;
     const FlatScene flat = flatten(scene);
     stats.flatten_s = watch.lap();
@@ -79,6 +80,7 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, Render
     const uint64_t kept = flat.triangles.size() - bvh.degenerate_count - bvh.non_finite_count;
     if (kept == 0) log_warning("the scene has no triangle that can be rendered");
     scene_ = upload_scene(device_, flat, bvh, scene.textures, settings.bvh);
+    if (plan.signals > 0) upload_long_triangles(device_, flat, scene_);
     const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);
     frame_ = params;
     upload_frame(settings.crop);

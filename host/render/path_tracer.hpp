@@ -56,7 +56,7 @@ class PathTracer {
 
     const cl::Buffer& params() const { return params_; }
     const cl::Buffer& film() const { return film_; }
-    const cl::Buffer& lights() const { return scene_.lights; }
+    const DeviceScene& scene() const { return scene_; }
 
     /// The crop's pixels as they are now.
     std::vector<shared::FilmPixel> read_film();
@@ -71,7 +71,8 @@ class PathTracer {
     void move_to(const Rect& crop);
 
   private:
-    void upload(const Scene& scene, const PathSettings& settings, RenderStats& stats);
+    void upload(const Scene& scene, const PathSettings& settings, const Plan& plan,
+                RenderStats& stats);
     void upload_frame(const Rect& crop);
     void compile(const Plan& plan, const PathSettings& settings, Recording recording,
                  RenderStats& stats);

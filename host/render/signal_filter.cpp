@@ -13,7 +13,7 @@ namespace {
 
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 15;       // of filter_y
-constexpr cl_uint kBrightnessArg = 14;  // of filter_bandwidth
+constexpr cl_uint kBrightnessArg = 16;  // of filter_bandwidth
 
 template <typename... Args>
 void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
@@ -75,7 +75,7 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
              shared_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals),
                            uint64_t(plan_parts(plan))) *
              sizeof(float)},
-        {"filter widths, edges of surfaces", (entries + pixels) * sizeof(float)},
+        {"filter widths, edges of surfaces, thin things", (entries + 2 * pixels) * sizeof(float)},
         {"unshadowed light",
          uint64_t(plan.shadow_lights) * (surfaces * reflected_sums(plan) * sizeof(shared::float4) +
                                          pixels * corrections(plan) * sizeof(float))},
@@ -97,7 +97,7 @@ SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Pla
       direct_signals_(uint32_t(plan.direct_signals)),
       signals_(uint32_t(plan.signals)),
       parts_(uint32_t(plan_parts(plan))),
-      light_list_(tracer.lights()),
+      scene_(tracer.scene()),
       params_(tracer.params()),
       film_(tracer.film()) {
     Stopwatch watch;
@@ -138,6 +138,7 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
                                     "corrections of unshadowed light");
     unfiltered_ = zeros(pixels, sizeof(shared::SampledLight), "unfiltered light");
     remainders_ = zeros(pixels, sizeof(shared::Remainder), "remainders of pixels");
+    thin_things_ = zeros(pixels, sizeof(float), "thin things");
     rows_ = device_.allocate(height_ * sizeof(float), "brightness of rows");
     allocate_planes();
     light_ =
@@ -174,6 +175,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     const auto programs = device::build_programs(device_, plan.filter_programs, kernel_dir);
     const device::Program &distances = programs[0], &bandwidth = programs[1];
     const device::Program &filters = programs[2], &guard = programs[3];
+    thin_kernel_ = distances.kernel("filter_thin_things");
     surfaces_kernel_ = distances.kernel("filter_surfaces");
     distances_kernel_ = distances.kernel("filter_distances");
     neighbours_kernel_ = distances.kernel("filter_neighbours");
@@ -194,6 +196,7 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
     set_args(0, 0);
     measure_bandwidth();
     filter();
+    knows_thin_things_ = false;
     set_args(width_, height_);
     stats.compile_s += watch.lap();
 }
@@ -201,23 +204,25 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
 void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     const auto width = cl_int(film_width), height = cl_int(film_height);
     const auto parts = cl_uint(film_width * film_height * parts_);
+    set_kernel_args(thin_kernel_, params_, scene_.vertices, scene_.triangles, scene_.long_triangles,
+                    film_width > 0 ? scene_.long_triangle_count : 0, thin_things_);
     set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, more_, places_, width,
                     height);
     set_kernel_args(distances_kernel_, distances_, sums_, more_, found_, width, height);
     set_kernel_args(neighbours_kernel_, places_, found_, near_by_, ends_, width, height);
     set_kernel_args(brightness_kernel_, film_, rows_, width, height);
-    set_kernel_args(bandwidth_kernel_, settings_, light_list_, film_, surface_sums_, more_, places_,
-                    near_by_, ends_, reflected_, sigmas_, sample_ends_, unfiltered_, width, height,
-                    0.0f);
+    set_kernel_args(bandwidth_kernel_, settings_, params_, scene_.lights, thin_things_, film_,
+                    surface_sums_, more_, places_, near_by_, ends_, reflected_, sigmas_,
+                    sample_ends_, unfiltered_, width, height, 0.0f);
     set_kernel_args(edge_noise_, film_, surface_sums_, more_, ends_, guarded_, width, height);
-    set_kernel_args(flat_, params_, light_list_, film_, surface_sums_, reflected_, corrections_,
+    set_kernel_args(flat_, params_, scene_.lights, film_, surface_sums_, reflected_, corrections_,
                     width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, more_, means_, width, height);
     set_kernel_args(filter_none_, places_, film_, surface_sums_, more_, reflected_, corrections_,
                     remainders_, sums_, means_, light_, width, height);
-    set_kernel_args(filter_x_, settings_, light_list_, places_, sigmas_, means_, width, height,
+    set_kernel_args(filter_x_, settings_, scene_.lights, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
-    set_kernel_args(filter_y_, settings_, light_list_, places_, sigmas_, filtered_, width, height,
+    set_kernel_args(filter_y_, settings_, scene_.lights, places_, sigmas_, filtered_, width, height,
                     1.0f, film_, surface_sums_, more_, reflected_, corrections_, remainders_,
                     light_, cl_int(0));
     set_kernel_args(guard_errors_, unfiltered_, light_, errors_, parts);
@@ -240,11 +245,17 @@ void SignalFilter::set_settings(const shared::FilterSettings& settings) {
 
 double SignalFilter::measure_bandwidth() {
     const uint64_t pixels = pixel_count();
+    double seconds = 0;
+    if (!knows_thin_things_) {
+        if (scene_.long_triangle_count > 0)
+            seconds += run(std::array{Launch{thin_kernel_, scene_.long_triangle_count}});
+        knows_thin_things_ = true;
+    }
     const Launch measured[] = {{surfaces_kernel_, pixels},
                                {distances_kernel_, pixels},
                                {neighbours_kernel_, group_count()},
                                {brightness_kernel_, height_}};
-    const double seconds = run(measured);
+    seconds += run(measured);
     bandwidth_kernel_.setArg(kBrightnessArg, mean_brightness());
     return seconds + run(std::array{Launch{bandwidth_kernel_, pixels}});
 }
