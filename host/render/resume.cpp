@@ -9,95 +9,17 @@
 
 #include "host/base/atomic_file.hpp"
 #include "host/base/sha256.hpp"
+#include "host/render/fingerprints.hpp"
 #include "wedge/error.hpp"
 #include "wedge/log.hpp"
 
 namespace wedge::rendering {
 namespace {
 
-constexpr std::string_view kMagic = "wedge state 1\n";
+constexpr std::string_view kAnyMagic = "wedge state ", kMagic = "wedge state 2\n";
 constexpr std::size_t kHexDigits = 64;
 /// Saving takes no more than about this share of the time.
 constexpr double kMostTimeSaving = 0.05;
-
-/// What the image depends on, piece by piece.
-class Fingerprint {
-  public:
-    template <typename T>
-    Fingerprint& add(const T& value) requires std::is_trivially_copyable_v<T> {
-        hash_.update(&value, sizeof(value));
-        return *this;
-    }
-    template <typename T>
-    Fingerprint& add(const std::vector<T>& values) {
-        add(values.size());
-        hash_.update(values.data(), values.size() * sizeof(T));
-        return *this;
-    }
-    Fingerprint& add(std::string_view text) {
-        add(text.size());
-        hash_.update(text);
-        return *this;
-    }
-    std::string hex() { return to_hex(hash_.digest()); }
-
-  private:
-    Sha256 hash_;
-};
-
-void add_camera(Fingerprint& print, const Scene& scene) {
-    const Camera& c = scene.camera;
-    print.add(c.position).add(c.target).add(c.up).add(c.vertical_fov_rad);
-    print.add(scene.film.width).add(scene.film.height).add(scene.background);
-}
-
-void add_materials(Fingerprint& print, const Scene& scene) {
-    for (const Material& m : scene.materials) {
-        print.add(m.diffuse).add(m.specular).add(m.exponent).add(m.model).add(m.emission);
-        print.add(m.diffuse_texture).add(m.specular_texture).add(m.emission_texture);
-        print.add(m.normal_texture).add(m.bump_texture);
-    }
-    for (const Texture& t : scene.textures) {
-        print.add(t.image.width).add(t.image.height).add(t.image.format).add(t.image.texels);
-        print.add(t.scale).add(t.offset).add(t.value_gain).add(t.value_base).add(t.clamp);
-    }
-}
-
-void add_geometry(Fingerprint& print, const Scene& scene) {
-    for (const Mesh& mesh : scene.meshes)
-        print.add(mesh.positions)
-            .add(mesh.normals)
-            .add(mesh.uvs)
-            .add(mesh.triangles)
-            .add(mesh.material_of);
-    for (const Instance& i : scene.instances)
-        print.add(i.mesh).add(i.transform).add(i.material.value_or(~0u));
-}
-
-void add_lights(Fingerprint& print, const Scene& scene) {
-    for (const RectLight& l : scene.rect_lights)
-        print.add(l.center).add(l.edge_u).add(l.edge_v).add(l.radiance).add(l.profile).add(l.sigma);
-    for (const PointLight& l : scene.point_lights) print.add(l.position).add(l.intensity);
-}
-
-/// The device belongs to it: others round otherwise, and the bits would be neither's.
-std::string fingerprint_of(const Scene& scene, const RenderOptions& options,
-                           const PathSettings& settings, const RenderStats& stats) {
-    Fingerprint print;
-    print.add(std::string_view(version()))
-        .add(std::string_view(options.kernel_dir))
-        .add(std::string_view(stats.device.name))
-        .add(std::string_view(stats.device.driver));
-    add_camera(print, scene);
-    add_materials(print, scene);
-    add_geometry(print, scene);
-    add_lights(print, scene);
-    const Rect& crop = settings.crop;
-    print.add(crop.x).add(crop.y).add(crop.width).add(crop.height);
-    print.add(options.seed).add(options.sample_offset).add(settings.sampler);
-    print.add(settings.strata).add(settings.bounces);
-    return print.hex();
-}
 
 std::string_view bytes_of(const Position& position) {
     return {reinterpret_cast<const char*>(&position), sizeof(position)};
@@ -108,7 +30,7 @@ std::string_view bytes_of(const Position& position) {
 StateFile::StateFile(const Scene& scene, const RenderOptions& options, const PathSettings& settings,
                      const RenderStats& stats)
     : file_(options.resume_file),
-      fingerprint_(fingerprint_of(scene, options, settings, stats)),
+      fingerprints_(fingerprints_of(scene, options, settings, stats)),
       pixels_(uint64_t(settings.crop.width) * uint64_t(settings.crop.height)) {}
 
 std::optional<RenderState> StateFile::read() const {
@@ -121,14 +43,17 @@ std::optional<RenderState> StateFile::read() const {
     std::ifstream stream(file_, std::ios::binary);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     const std::size_t film_bytes = pixels_ * sizeof(shared::FilmPixel);
-    const std::size_t header = kMagic.size() + kHexDigits;
+    const std::size_t header = kMagic.size() + kHexDigits * fingerprints_.size();
+    if (text.starts_with(kAnyMagic) && !text.starts_with(kMagic))
+        fail("is the state of a render by another version");
     if (!text.starts_with(kMagic) || text.size() < header + kHexDigits)
         fail("is no state of a render");
     const std::string_view body(text.data(), text.size() - kHexDigits);
     if (text.substr(body.size()) != to_hex(sha256(body))) fail("is damaged");
-    if (body.substr(kMagic.size(), kHexDigits) != fingerprint_ ||
-        body.size() != header + sizeof(Position) + film_bytes)
-        fail("is the state of another render: of another scene, device, version or other options");
+    if (const auto others = different_parts(body.substr(kMagic.size())); !others.empty())
+        fail(fmt::format("is the state of another render; not the same: {}",
+                         fmt::join(others, ", ")));
+    if (body.size() != header + sizeof(Position) + film_bytes) fail("is damaged");
     RenderState state;
     state.film.resize(pixels_);
     std::memcpy(&state.position, body.data() + header, sizeof(Position));
@@ -136,9 +61,17 @@ std::optional<RenderState> StateFile::read() const {
     return state;
 }
 
+std::vector<std::string_view> StateFile::different_parts(std::string_view header) const {
+    std::vector<std::string_view> parts;
+    for (std::size_t i = 0; i < fingerprints_.size(); ++i)
+        if (header.substr(kHexDigits * i, kHexDigits) != fingerprints_[i].hex)
+            parts.push_back(fingerprints_[i].part);
+    return parts;
+}
+
 void StateFile::write(const RenderState& state) const {
     std::string text(kMagic);
-    text += fingerprint_;
+    for (const Fingerprint& print : fingerprints_) text += print.hex;
     text += bytes_of(state.position);
     text.append(reinterpret_cast<const char*>(state.film.data()),
                 state.film.size() * sizeof(shared::FilmPixel));

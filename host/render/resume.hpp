@@ -3,10 +3,11 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/base/stopwatch.hpp"
+#include "host/render/fingerprints.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/schedule.hpp"
 #include "wedge/render.hpp"
@@ -20,7 +21,7 @@ struct RenderState {
     std::vector<shared::FilmPixel> film;
 };
 
-/// Reads and writes states of one render. The file has a checksum, and a fingerprint of the scene,
+/// Reads and writes states of one render. The file has a checksum, and fingerprints of the scene,
 /// of the options that decide about the image, and of the program's version; it is replaced in one
 /// step, so that whenever the process ends there is a whole file, old or new.
 class StateFile {
@@ -35,8 +36,11 @@ class StateFile {
     void write(const RenderState& state) const;
 
   private:
+    /// Of a file, by what it tells from the first fingerprint on.
+    std::vector<std::string_view> different_parts(std::string_view header) const;
+
     std::filesystem::path file_;
-    std::string fingerprint_;
+    std::vector<Fingerprint> fingerprints_;
     uint64_t pixels_;
 };
 

@@ -103,7 +103,11 @@ TEST_CASE("states_that_are_damaged_or_of_other_renders_are_refused") {
     other[7] = "6";  // the seed
     const ProcessResult of_other = bench.wedge(other);
     CHECK(of_other.exit_code == 3);
-    CHECK(of_other.err_has("room.state: is the state of another render"));
+    CHECK(
+        of_other.err_has("room.state: is the state of another render; not the same: "
+                         "seed, sampler or first sample; remove it"));
+    CHECK(bench.wedge(render_with({"--resume", "room.state", "--crop", "0,0,8,8"}))
+              .err_has("not the same: crop; remove it"));
 
     std::string bad = good;
     bad[bad.size() / 2] ^= 1;
@@ -111,6 +115,8 @@ TEST_CASE("states_that_are_damaged_or_of_other_renders_are_refused") {
     CHECK(bench.wedge(render_with(state)).err_has("room.state: is damaged"));
     bench.write("room.state", good.substr(0, good.size() / 2));
     CHECK(bench.wedge(render_with(state)).err_has("room.state: is damaged"));
+    bench.write("room.state", "wedge state 1\n" + good.substr(14));
+    CHECK(bench.wedge(render_with(state)).err_has("the state of a render by another version"));
     bench.write("room.state", "");
     CHECK(bench.wedge(render_with(state)).err_has("room.state: is no state of a render"));
     bench.write("room.state", good);
