@@ -5,6 +5,7 @@
 
 #include "host/base/stopwatch.hpp"
 #include "host/bvh/bvh.hpp"
+#include "host/bvh/prim_refs.hpp"
 #include "host/render/camera.hpp"
 #include "host/render/flatten.hpp"
 #include "wedge/log.hpp"
@@ -27,6 +28,22 @@ int sampler_kind(Sampler sampler) {
             return WEDGE_SAMPLER_LATTICE;
     }
     return WEDGE_SAMPLER_SOBOL;
+}
+
+/// Those of lamps come last and do not count: a default view brings one.
+void warn_if_nothing_shows(const Scene& scene, const FlatScene& flat) {
+    const std::size_t of_meshes = flat.triangles.size() - 2 * scene.rect_lights.size();
+    const auto shows = [&](const UVec3& t) {
+        const Vec3 &a = flat.positions[t.x], &b = flat.positions[t.y], &c = flat.positions[t.z];
+        return bvh::is_usable(a) && bvh::is_usable(b) && bvh::is_usable(c) &&
+               !bvh::is_degenerate(a, b, c);
+    };
+    const auto end = flat.triangles.begin() + std::ptrdiff_t(of_meshes);
+    if (flat.triangles.empty() ||
+        (of_meshes > 0 && std::none_of(flat.triangles.begin(), end, shows)))
+        log_warning(
+            "no triangle of the scene's meshes can be rendered: none has finite vertices and an "
+            "area");
 }
 
 }  // namespace
@@ -77,8 +94,7 @@ void PathTracer::upload(const Scene& scene, const PathSettings& settings, const 
     if (flat.lights.empty() && scene.background == Vec3(0))
         log_warning(
             "the scene has no light, no shining material and no background: it will be black");
-    const uint64_t kept = flat.triangles.size() - bvh.degenerate_count - bvh.non_finite_count;
-    if (kept == 0) log_warning("the scene has no triangle that can be rendered");
+    warn_if_nothing_shows(scene, flat);
     scene_ = upload_scene(device_, flat, bvh, scene.textures, settings.bvh);
     if (plan.signals > 0) upload_long_triangles(device_, flat, scene_);
     const shared::FrameParams params = make_frame_params(scene, settings, flat.lights);

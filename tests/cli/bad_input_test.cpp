@@ -119,6 +119,21 @@ TEST_CASE("broken_texture_renders_on_with_a_warning") {
     check_texture_warning("broken.png");
 }
 
+// A default view brings its own lamp, so that there is something on the film.
+TEST_CASE("model_without_area_is_warned_of") {
+    const Workbench bench;
+    bench.write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    bench.write("corner.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nf 1 2 3\nf 1 2 4\n");
+    const auto warns = [&](const char* model) {
+        const ProcessResult result =
+            bench.wedge({"render", model, "--size", "8x8", "--spp", "4", "-o", "out.exr"});
+        CHECK(result.exit_code == 0);
+        return result.err_has("no triangle of the scene's meshes can be rendered");
+    };
+    CHECK(warns("line.obj"));
+    CHECK(!warns("corner.obj"));
+}
+
 TEST_CASE("non_finite_vertices_render_on_and_are_counted") {
     const Workbench bench;
     write_room(bench);
