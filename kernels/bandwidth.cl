@@ -99,9 +99,10 @@ inline float nearest_power_of_two(float v) {
    near by. A pixel that has one gets as many camera rays as it would get paths if it needed them, and one
    beside it a few more than the probe's, which may have missed it. Textures have colours that differ
    everywhere. */
-#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; with its 0.8th power; also where something thin is not found */
+#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; with its 0.8th power; where something thin is missed, too */
 #define WEDGE_LEAST_AT_COLOURS 64.0f   /* for mu = 1; with its root, as the next */
 #define WEDGE_LEAST_BESIDE_EDGES 16.0f
+#define WEDGE_FAINTEST_EDGE FLT_MIN    /* contrast of what nobody has seen yet */
 #define WEDGE_MOST_CAMERA_RAYS 4096.0f
 #define WEDGE_CAMERA_RAYS_PER_PATH 40.0f /* where so many paths are allowed that these are more */
 
@@ -171,9 +172,9 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
     return need;
 }
 
-/* near_by, ends, nearness: of filter_neighbours and filter_thin_things in distances.cl. sigmas: world units, 0 where nothing is to
-   be filtered. sample_ends: paths a pixel is brought to are a power of two, which the sampler likes
-   best; what it has already stays. */
+/* near_by, ends, nearness: of filter_neighbours and filter_thin_things in distances.cl. sigmas: world
+   units, 0 where nothing is to be filtered. sample_ends: paths a pixel is brought to are a power of
+   two, which the sampler likes best; what it has already stays. */
 __kernel void filter_bandwidth(
     __constant FilterSettings* settings, __global const FrameParams* restrict params,
     __global const Light* restrict lights, __global const float* restrict nearness,
@@ -225,7 +226,7 @@ __kernel void filter_bandwidth(
     const Contrast contrast = contrast_at(film, surfaces, is_edge, x, y, width, height);
     uint rays = camera_rays_of(settings, contrast, is_edge, mean_brightness);
     if (misses_thin_thing(params, nearness[pixel], &planes, places, x, y))
-        rays = max(rays, (uint)nearest_power_of_two(least_at_edges(settings)));
+        rays = max(rays, camera_rays(settings, WEDGE_FAINTEST_EDGE, mean_brightness, least_at_edges(settings)));
     sample_ends[pixel].paths = end;
     sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);
 }

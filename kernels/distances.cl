@@ -10,19 +10,18 @@
 #include "lib/thin_things.clh"
 #include "wedge/shared/frame.h"
 
-/* Work-items: entries of a list of triangles. nearness: by pixel of the crop, one over the depth of the nearest thin
+/* Work-items: entries of a list of triangles, from `first` on. nearness: by pixel of the crop, one over the depth of the nearest thin
    thing, as bits of a float; 0 before. The camera does not move: this is needed once. */
 __kernel void filter_thin_things(__global const FrameParams* restrict params,
                                  __global const ShadingVertex* restrict vertices,
                                  __global const ShadingTriangle* restrict triangles,
-                                 __global const uint* restrict list, uint count,
-                                 volatile __global uint* restrict nearness) {
-    const uint id = get_global_id(0);
-    if (id >= count) return;
+                                 __global const uint* restrict list,
+                                 volatile __global uint* restrict nearness, uint first, uint end) {
+    const uint id = first + get_global_id(0);
+    if (id >= end) return;
     const ShadingTriangle t = triangles[list[id]];
-    const uint at[3] = {t.v0, t.v1, t.v2};
-    float3 corners[3];
-    for (int k = 0; k < 3; ++k) corners[k] = (float3)(vertices[at[k]].px, vertices[at[k]].py, vertices[at[k]].pz);
+    const float3 corners[3] = {vertex_position(vertices + t.v0), vertex_position(vertices + t.v1),
+                               vertex_position(vertices + t.v2)};
     const View view = view_of(params);
     mark_if_thin(&view, nearness, corners);
 }

@@ -9,12 +9,13 @@ namespace wedge::rendering {
 namespace {
 
 constexpr std::size_t kGrain = 1 << 14;  // triangles a task
-constexpr float kLong = 4;               // times as long as wide
+constexpr double kLong = 4;              // times as long as wide
 
-bool is_long(const Vec3& p, const Vec3& q, const Vec3& r) {
-    const Vec3 a = q - p, b = r - q, c = p - r;
-    const float longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
-    const float twice_area = glm::length(glm::cross(a, b));
+/// In doubles, where no scene is too small or too large for squares.
+bool is_long(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& r) {
+    const glm::dvec3 a = q - p, b = r - q, c = p - r;
+    const double longest = std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)});
+    const double twice_area = glm::length(glm::cross(a, b));
     return twice_area > 0 && kLong * twice_area <= longest;
 }
 
@@ -27,7 +28,8 @@ std::vector<uint32_t> find_long_triangles(const FlatScene& flat) {
         std::vector<uint32_t> found;
         for (std::size_t i = begin; i < end; ++i) {
             const UVec3 t = flat.triangles[i];
-            if (is_long(flat.positions[t.x], flat.positions[t.y], flat.positions[t.z]))
+            if (is_long(glm::dvec3(flat.positions[t.x]), glm::dvec3(flat.positions[t.y]),
+                        glm::dvec3(flat.positions[t.z])))
                 found.push_back(uint32_t(i));
         }
         const std::lock_guard lock(mutex);

@@ -14,6 +14,7 @@ namespace {
 constexpr cl_uint kScaleArg = 7;        // of filter_x and filter_y
 constexpr cl_uint kIndexArg = 15;       // of filter_y
 constexpr cl_uint kBrightnessArg = 16;  // of filter_bandwidth
+constexpr cl_uint kRangeArg = 5;        // of filter_thin_things
 
 template <typename... Args>
 void set_kernel_args(cl::Kernel& kernel, const Args&... args) {
@@ -194,6 +195,8 @@ void SignalFilter::compile(const Plan& plan, const std::string& kernel_dir, Rend
         (program.from_cache ? stats.programs_from_cache : stats.programs_compiled) += 1;
     // Some drivers compile at the first launch: empty ones keep that out of the rendering time.
     set_args(0, 0);
+    run(std::array{Launch{thin_kernel_, 1}});
+    knows_thin_things_ = true;
     measure_bandwidth();
     filter();
     knows_thin_things_ = false;
@@ -205,7 +208,7 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
     const auto width = cl_int(film_width), height = cl_int(film_height);
     const auto parts = cl_uint(film_width * film_height * parts_);
     set_kernel_args(thin_kernel_, params_, scene_.vertices, scene_.triangles, scene_.long_triangles,
-                    film_width > 0 ? scene_.long_triangle_count : 0, thin_things_);
+                    thin_things_, cl_uint(0), cl_uint(0));
     set_kernel_args(surfaces_kernel_, params_, settings_, surface_sums_, more_, places_, width,
                     height);
     set_kernel_args(distances_kernel_, distances_, sums_, more_, found_, width, height);
@@ -243,14 +246,23 @@ void SignalFilter::set_settings(const shared::FilterSettings& settings) {
     device_.overwrite(settings_, &settings, sizeof(settings));
 }
 
+// Each may be as long as the film is wide, and drivers have limits of time for a launch.
+double SignalFilter::find_thin_things() {
+    constexpr cl_uint kAtOnce = 1 << 14;
+    double seconds = 0;
+    for (cl_uint first = 0; first < scene_.long_triangle_count; first += kAtOnce) {
+        const cl_uint end = std::min(first + kAtOnce, scene_.long_triangle_count);
+        thin_kernel_.setArg(kRangeArg, first);
+        thin_kernel_.setArg(kRangeArg + 1, end);
+        seconds += run(std::array{Launch{thin_kernel_, end - first}});
+    }
+    return seconds;
+}
+
 double SignalFilter::measure_bandwidth() {
     const uint64_t pixels = pixel_count();
-    double seconds = 0;
-    if (!knows_thin_things_) {
-        if (scene_.long_triangle_count > 0)
-            seconds += run(std::array{Launch{thin_kernel_, scene_.long_triangle_count}});
-        knows_thin_things_ = true;
-    }
+    double seconds = knows_thin_things_ ? 0 : find_thin_things();
+    knows_thin_things_ = true;
     const Launch measured[] = {{surfaces_kernel_, pixels},
                                {distances_kernel_, pixels},
                                {neighbours_kernel_, group_count()},

@@ -70,6 +70,7 @@ class SignalFilter {
 
     void allocate(const shared::FilterSettings& settings);
     void allocate_planes();
+    double find_thin_things();
     float mean_brightness();
     double run(std::span<const Launch> launches);
     void compile(const Plan& plan, const std::string& kernel_dir, RenderStats& stats);
