@@ -30,7 +30,7 @@ int sampler_kind(Sampler sampler) {
     return WEDGE_SAMPLER_SOBOL;
 }
 
-/// Those of lamps come last and do not count: a default view brings one.
+/// Triangles of lamps come last and do not count: a default view brings one.
 void warn_if_nothing_shows(const Scene& scene, const FlatScene& flat) {
     const std::size_t of_meshes = flat.triangles.size() - 2 * scene.rect_lights.size();
     const auto shows = [&](const UVec3& t) {
