@@ -10,8 +10,9 @@
 #include "lib/thin_things.clh"
 #include "wedge/shared/frame.h"
 
-/* Work-items: entries of a list of triangles, from `first` on. nearness: by pixel of the crop, one over the depth of the nearest thin
-   thing, as bits of a float; 0 before. The camera does not move: this is needed once. */
+/* Work-items: entries of a list of triangles, from `first` on. nearness: by pixel of the crop, one over
+   the depth of the nearest thin thing, as bits of a float; 0 before. The camera does not move: this is
+   needed once. */
 __kernel void filter_thin_things(__global const FrameParams* restrict params,
                                  __global const ShadingVertex* restrict vertices,
                                  __global const ShadingTriangle* restrict triangles,

@@ -26,6 +26,7 @@ struct DeviceScene {
 DeviceScene upload_scene(device::Device& device, const FlatScene& flat, const bvh::Bvh& bvh,
                          const std::vector<Texture>& textures, const BvhOptions& options = {});
 
+/// Fills the list that `scene` has of them. Throws Error(device) where it does not fit.
 void upload_long_triangles(device::Device& device, const FlatScene& flat, DeviceScene& scene);
 
 }  // namespace wedge::rendering

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "host/render/flatten.hpp"
 #include "host/render/lights.hpp"
+#include "host/render/long_triangles.hpp"
 #include "host/render/plan.hpp"
 #include "host/render/render_settings.hpp"
 #include "host/render/shining_rects.hpp"
@@ -73,6 +75,17 @@ Line hemisphere(const char* name, bool is_there, const char* missing, bool filte
     return {name, filtered ? "filtered" : "Monte Carlo", why};
 }
 
+Line thin_things(const Scene& scene, const Plan& plan) {
+    const char* name = "thin things";
+    if (plan.signals == 0) return {name, "Monte Carlo", "the method looks for nothing"};
+    const FlatScene flat = flatten(scene);
+    const std::size_t count = find_long_triangles(flat).size();
+    if (count == 0) return {name, "none", "no triangle is four times as long as wide"};
+    return {name, "looked for",
+            fmt::format("{} of {} triangles are four times as long as wide", count,
+                        flat.triangles.size())};
+}
+
 std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
     std::vector<Line> lines{shadows(scene, plan), hues(plan), other_lamps(scene, plan)};
     const bool sky = scene.background != Vec3(0);
@@ -102,6 +115,7 @@ std::vector<Line> effects(const Scene& scene, const Plan& plan, int bounces) {
     lines.push_back({"normal maps", plan.normal_maps ? "yes" : "none",
                      plan.normal_maps ? "surfaces whose normals differ are filtered apart"
                                       : "no visible material bends its normal"});
+    lines.push_back(thin_things(scene, plan));
     return lines;
 }
 
