@@ -4,6 +4,7 @@
 #include "lib/light.clh"
 #include "lib/random.clh"
 #include "lib/shadow_hue.clh"
+#include "lib/thin_things.clh"
 
 __kernel void draw_points(int kind, uint seed, int sequences, uint strata, uint pixel, uint first_sample,
                           uint dimension, uint count, __global float2* out) {
@@ -151,4 +152,14 @@ __kernel void eval_shadow_hues(__global const float4* rays, uint ray_count, __gl
     }
     for (uint half_index = 0; half_index < count; ++half_index)
         out[half_index] = (float4)(limited_hue((float3)(share), shadow_hue(sums, (int)half_index)) / share, 0.0f);
+}
+
+/* sizes: of a pixel face-on, along the surface; largest coordinate of the eye. */
+__kernel void eval_is_in_front(__global const float4* things, __global const float4* places,
+                             __global const float4* normals, __global const float4* sizes, uint count,
+                             __global float* out) {
+    const uint id = get_global_id(0);
+    if (id >= count) return;
+    const float4 s = sizes[id];
+    out[id] = is_in_front(things[id].xyz, places[id].xyz, normals[id].xyz, s.x, s.y, s.z) ? 1.0f : 0.0f;
 }

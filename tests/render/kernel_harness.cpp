@@ -103,6 +103,18 @@ std::vector<float> SamplingKernels::levels(const std::vector<float4>& positions,
     return run<float>("eval_is_level", count, places, pixel, count);
 }
 
+std::vector<float> SamplingKernels::in_front(const std::vector<float4>& things,
+                                            const std::vector<float4>& places,
+                                            const std::vector<float4>& normals,
+                                            const std::vector<float4>& sizes) {
+    const auto upload = [&](const std::vector<float4>& items) {
+        return device_.upload_bytes(items.data(), items.size() * sizeof(float4), "places");
+    };
+    const cl::Buffer a = upload(things), b = upload(places), c = upload(normals), d = upload(sizes);
+    const auto count = uint32_t(things.size());
+    return run<float>("eval_is_in_front", count, a, b, c, d, count);
+}
+
 std::vector<float> SamplingKernels::filter_weights(const std::vector<float4>& positions,
                                                    const std::vector<float4>& normals, float4 along,
                                                    float pixel) {
