@@ -74,7 +74,7 @@ bool differ_in_hue(const Scene& scene, const std::vector<bool>& used) {
 
 /// What remains of a path that ends at its first hit is to look at lights, which costs less than to
 /// get there. Not so where it goes on: for bounces, a lobe, or light that must be searched for.
-constexpr int kLightRaysAtEnds = 2;
+constexpr int kLightRaysAtEnds = 4;
 
 int light_rays(const Scene& scene, const Plan& plan, int bounces) {
     if (shines_beside_rects(scene) || plan.specular || has_hemisphere_light(scene, bounces))

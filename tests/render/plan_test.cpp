@@ -118,26 +118,26 @@ TEST_CASE("scenes_with_nothing_to_filter_are_plain_monte_carlo") {
     CHECK(channel_values(image, "G") == channel_values(plain, "G"));
 }
 
-TEST_CASE("lights_are_looked_at_twice_where_paths_end") {
-    const auto twice = [](const Scene& scene, const RenderOptions& options) {
-        return explain(scene, options).find("WEDGE_LIGHT_RAYS=2") != std::string::npos;
+TEST_CASE("lights_are_looked_at_four_times_where_paths_end") {
+    const auto often = [](const Scene& scene, const RenderOptions& options) {
+        return explain(scene, options).find("WEDGE_LIGHT_RAYS=4") != std::string::npos;
     };
     Scene scene = make_penumbra(LightProfile::uniform);
-    CHECK(twice(scene, filtered(1)));
-    CHECK(twice(scene, quick(1, 0)));
-    CHECK_FALSE(twice(scene, quick(1, 1)));
-    CHECK_FALSE(twice(make_room(20), quick(1, 0)));  // lobes look for lights, too
+    CHECK(often(scene, filtered(1)));
+    CHECK(often(scene, quick(1, 0)));
+    CHECK_FALSE(often(scene, quick(1, 1)));
+    CHECK_FALSE(often(make_room(20), quick(1, 0)));  // lobes look for lights, too
     scene.materials[0].emission = Vec3(1);           // of both rectangles
-    CHECK(twice(scene, quick(1, 0)));
+    CHECK(often(scene, quick(1, 0)));
     scene.meshes[0].triangles.pop_back();  // which is none any more
     scene.meshes[0].material_of.pop_back();
-    CHECK_FALSE(twice(scene, quick(1, 0)));
+    CHECK_FALSE(often(scene, quick(1, 0)));
     scene = make_penumbra(LightProfile::uniform);
     scene.background = Vec3(1);
-    CHECK_FALSE(twice(scene, quick(1, 0)));
+    CHECK_FALSE(often(scene, quick(1, 0)));
     scene.background = Vec3(0);
     scene.rect_lights.clear();
-    CHECK_FALSE(twice(scene, quick(1, 0)));
+    CHECK_FALSE(often(scene, quick(1, 0)));
 }
 
 TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
