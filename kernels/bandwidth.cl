@@ -99,7 +99,7 @@ inline float nearest_power_of_two(float v) {
    near by. A pixel that has one gets as many camera rays as it would get paths if it needed them, and one
    beside it a few more than the probe's, which may have missed it. Textures have colours that differ
    everywhere. */
-#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; with its 0.8th power; where something thin is missed, too */
+#define WEDGE_LEAST_AT_EDGES 128.0f    /* for mu = 1; where something thin is missed, too */
 #define WEDGE_LEAST_AT_COLOURS 64.0f   /* for mu = 1; with its root, as the next */
 #define WEDGE_LEAST_BESIDE_EDGES 16.0f
 #define WEDGE_FAINTEST_EDGE FLT_MIN    /* contrast of what nobody has seen yet */
@@ -117,7 +117,7 @@ inline uint camera_rays(__constant FilterSettings* settings, float contrast,
 }
 
 inline float least_at_edges(__constant FilterSettings* settings) {
-    return WEDGE_LEAST_AT_EDGES * power(settings->mu, 0.8f);
+    return WEDGE_LEAST_AT_EDGES * settings->mu;
 }
 
 /* Of a pixel with these contrasts. `is_edge`: of geometry. */
@@ -150,10 +150,23 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
     return relative_variance / (fmax(pixels, 1.0f) * noise * noise);
 }
 
-/* Width of a signal's filter, and how many samples it asks for: by theory and by noise. `bright`:
-   square of what counts as bright. */
+/* Samples are shared by a power of what is asked for (samples_granted), so that pixels with little
+   noise get more than they ask for, but far less than path tracing would give them. Filters make up
+   for that. Where they reach no farther than the pixel nothing does, and faint shadows would be worse
+   than without all this; so there are at least half as many as pixels get at most, up to those that
+   bring noise to a quarter of what is aimed at. */
+#define WEDGE_LEAST_UNFILTERED 64.0f /* for mu = 1 */
+#define WEDGE_LEAST_NOISE 0.25f
+
+inline float least_samples(float mu, float noise_samples, float pixels) {
+    return fmin(WEDGE_LEAST_UNFILTERED * mu / fmax(pixels, 1.0f),
+                noise_samples / (WEDGE_LEAST_NOISE * WEDGE_LEAST_NOISE));
+}
+
+/* Width of a signal's filter, how many samples it asks for, by theory and by noise, and how many it
+   gets at least. `bright`: square of what counts as bright. */
 typedef struct {
-    float sigma, theory, noise;
+    float sigma, theory, noise, least;
 } Need;
 
 inline Need signal_need(__constant FilterSettings* settings, __global const Light* lights,
@@ -161,7 +174,7 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
                         int signal, float3 found, float slanted_size, float bright) {
     const float2 bandwidth =
         signal_bandwidth(settings, lights, sum, signal, found.xy, slanted_size);
-    Need need = {bandwidth.x, 0.0f, 0.0f};
+    Need need = {bandwidth.x, 0.0f, 0.0f, 0.0f};
     const float relative = radiance_variance(sum, reflected, signal, fmax(found.z, 0.0f)) / bright;
     if (!(bandwidth.y > 0.0f && relative > 0.0f)) return need;
     const float pixels = 4.0f * WEDGE_PI * bandwidth.x * bandwidth.x / (slanted_size * slanted_size);
@@ -169,6 +182,7 @@ inline Need signal_need(__constant FilterSettings* settings, __global const Ligh
     const float share = is_light(signal) ? WEDGE_LIGHT_RAY_SHARE : 1.0f;
     need.theory = share * fmin(4.0f * relative, 1.0f) * bandwidth.y;
     need.noise = share * noise_samples(settings->mu, relative, pixels);
+    if (is_light(signal)) need.least = least_samples(settings->mu, need.noise, pixels);
     return need;
 }
 
@@ -194,6 +208,7 @@ __kernel void filter_bandwidth(
     const float bright = fmax(here * here + mean_brightness * mean_brightness, 1e-30f);
     const RestNoise rest = rest_noise_at(unfiltered, x, y, width, height);
     float theory = 0.0f, noise = noise_samples(settings->mu, rest.of_sample / bright, 1.0f);
+    float least = (float)settings->least_samples;
     for (int k = 0; k < WEDGE_SURFACES; ++k) {
         const int id = surface_entry(more, width * height, pixel, k);
         const float size = WEDGE_PLACE(&planes, places, k, WEDGE_PLACE_SIZE, at);
@@ -212,13 +227,13 @@ __kernel void filter_bandwidth(
             sigmas[entry * planes.size + at] = need.sigma;
             most = fmax(most, need.theory);
             noise += need.noise * share;
+            least = fmax(least, need.least);
         }
         theory += most * share;
     }
     const float samples = samples_granted(settings->mu, fmax(theory, noise));
     const float probes = (float)settings->probe_samples, cap = (float)settings->max_samples;
-    const float least = (float)settings->least_samples;
-    const float rounded = nearest_power_of_two(clamp(samples, probes, cap));
+    const float rounded = nearest_power_of_two(clamp(fmax(samples, least), probes, cap));
     const SampleEnds before = sample_ends[pixel];
     const uint end = max((uint)clamp(rounded, least, cap), before.paths_before);
     const SurfaceSums surfaces = {surface_sums, more};

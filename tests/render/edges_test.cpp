@@ -47,10 +47,10 @@ TEST_CASE("colours_inside_pixels_get_camera_rays") {
     CHECK(found < 0.4 * plain);
 }
 
-/// Error of what dark stripes among darker ones reflect in pixels that show both, over that of 16
-/// samples. Raised ones are edges of geometry, too.
-double error_at_faint_edges(float raised) {
-    constexpr float kDark = 0.01f, kLessDark = 0.02f;
+constexpr float kDark = 0.01f, kLessDark = 0.02f;
+
+/// Half of the film shows dark stripes among darker ones. Raised ones are edges of geometry, too.
+Scene make_faint_edges(float raised) {
     Scene scene = make_stripes(3.7f);
     scene.materials = {lambert(0.9f), lambert(kDark), lambert(kLessDark)};
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -59,6 +59,12 @@ double error_at_faint_edges(float raised) {
         if (is_dark && is_odd)
             for (Vec3& p : scene.meshes[i].positions) p.y += raised;
     }
+    return scene;
+}
+
+/// Error of what they reflect in pixels that show both, over that of 16 samples.
+double error_at_faint_edges(float raised) {
+    const Scene scene = make_faint_edges(raised);
     const auto albedo = [](const Image& image) { return channel_values(image, "albedo.G"); };
     const auto truth = albedo(render(scene, quick(8192, 0, Sampler::lattice, 9)).image);
     double found_error = 0, plain_error = 0;
@@ -82,6 +88,14 @@ TEST_CASE("faint_edges_get_camera_rays") {
     CAPTURE(steps);
     CHECK(colours < 0.5);
     CHECK(steps < 0.3);
+}
+
+// As many as paths at most, which double from mu = 4 to 8.
+TEST_CASE("faint_edges_of_geometry_keep_up_with_mu") {
+    const auto rays = [](float mu) {
+        return double(render(make_faint_edges(0.3f), filtered(mu)).stats.rays);
+    };
+    CHECK(rays(8) / rays(4) > 2);
 }
 
 // Eight samples of a pixel miss a strip that fills a tenth of it more often than not. Pixels next

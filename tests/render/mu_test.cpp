@@ -170,15 +170,6 @@ TEST_CASE("samples_for_a_large_mu_are_no_matter_of_luck") {
     CHECK(apart < 0.2);
 }
 
-// Else what a few samples agree on by luck stays wrong, whatever mu.
-TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
-    const Scene scene = make_penumbra(LightProfile::uniform);
-    for (const auto& [mu, least] : {std::pair(0.25f, 8), {1.0f, 8}, {2.0f, 16}, {8.0f, 64}}) {
-        const auto spp = channel_values(render(scene, filtered(mu)).image, "spp");
-        CHECK(*std::min_element(spp.begin(), spp.end()) == least);
-    }
-}
-
 // Four lamps in one place are one lamp four times as bright. Each has samples of its own, so that
 // the noise of all is half of that of the one; that of any is a quarter.
 TEST_CASE("noise_of_all_lamps_decides_how_many_samples_there_are") {

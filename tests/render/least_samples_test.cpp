@@ -1,0 +1,97 @@
+// Samples that pixels get, however little they ask for.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter_scenes.hpp"
+
+namespace wedge::test {
+namespace {
+
+// Else what a few samples agree on by luck stays wrong, whatever mu.
+TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
+    const Scene scene = make_penumbra(LightProfile::uniform);
+    for (const auto& [mu, least] : {std::pair(0.25f, 8), {1.0f, 8}, {2.0f, 16}, {8.0f, 64}}) {
+        const auto spp = channel_values(render(scene, filtered(mu)).image, "spp");
+        CHECK(*std::min_element(spp.begin(), spp.end()) == least);
+    }
+}
+
+/// Ground, its left half as bright as told, under strips that hide a four hundredth of the lamp at
+/// most: penumbrae two pixels wide, filters a tenth of a pixel.
+Scene make_faint_shadows(float left) {
+    std::vector<Mesh> meshes{make_quad({-4, 0, -4}, {0, 0, 8}, {4, 0, 0}, 1),
+                             make_quad({0, 0, -4}, {0, 0, 8}, {4, 0, 0}, 0)};
+    for (float x : {-0.8f, 0.0f, 0.8f})
+        meshes.push_back(make_quad({x, 0.6f, -2}, {0, 0, 4}, {0.002f, 0, 0}, 0));
+    Scene scene = make_penumbra(LightProfile::uniform);
+    const Scene strips = make_scene(meshes, {lambert(0.7f), lambert(left)});
+    scene.meshes = strips.meshes;
+    scene.instances = strips.instances;
+    scene.materials = strips.materials;
+    scene.film = {48, 36};
+    return scene;
+}
+
+struct MeanSamples {
+    double shadows = 0, others = 0;
+};
+
+/// Of pixels that show the left half of the ground alone.
+MeanSamples samples_in_faint_shadows(float left, float mu) {
+    Scene scene = make_faint_shadows(left);
+    const Image image = render(scene, filtered(mu)).image;
+    const auto lit = channel_values(render(scene, quick(1024, 0)).image, "direct.G");
+    scene.meshes.resize(2);
+    scene.instances.resize(2);
+    const auto bare = channel_values(render(scene, quick(1024, 0)).image, "direct.G");
+    const auto spp = channel_values(image, "spp"), height = channel_values(image, "P.Y"),
+               x = channel_values(image, "P.X");
+    MeanSamples sum, count;
+    for (std::size_t i = 0; i < spp.size(); ++i) {
+        if (height[i] > 1e-4 || x[i] > -0.1) continue;
+        const double hidden = 1 - lit[i] / bare[i];
+        if (hidden > 0.0008) sum.shadows += spp[i], count.shadows += 1;
+        if (hidden < 1e-5) sum.others += spp[i], count.others += 1;
+    }
+    REQUIRE(count.shadows > 50);
+    REQUIRE(count.others > 50);
+    return {sum.shadows / count.shadows, sum.others / count.others};
+}
+
+// Path tracing would give all pixels as many. Where filters cannot make up for less, few samples
+// would make shadows worse that ask for little, because they are faint.
+TEST_CASE("faint_shadows_that_no_filter_helps_keep_up") {
+    const MeanSamples mean = samples_in_faint_shadows(0.7f, 4);
+    CAPTURE(mean.shadows);
+    CAPTURE(mean.others);
+    CHECK(mean.shadows > 200);
+    CHECK(mean.others < 80);
+}
+
+TEST_CASE("shadows_too_dark_to_be_seen_need_not_keep_up") {
+    const MeanSamples mean = samples_in_faint_shadows(0.007f, 4);
+    CAPTURE(mean.shadows);
+    CHECK(mean.shadows < 100);
+}
+
+// There neighbours make up for few samples.
+TEST_CASE("pixels_in_wide_penumbrae_need_not_keep_up") {
+    Scene scene = make_penumbra(LightProfile::gaussian);
+    for (Vec3& p : scene.meshes[1].positions) p.y = 2;
+    const Image image = render(scene, filtered(0.5f)).image;
+    const auto spp = channel_values(image, "spp"), width = channel_values(image, "width.direct");
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < spp.size(); ++i) {
+        if (!(width[i] > 1)) continue;
+        sum += spp[i];
+        count += 1;
+    }
+    REQUIRE(count > 100);
+    CAPTURE(sum / count);
+    CHECK(sum / count < 19);  // 22 if they had to
+}
+
+}  // namespace
+}  // namespace wedge::test
