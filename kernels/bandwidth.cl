@@ -153,14 +153,13 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
 /* Samples are shared by a power of what is asked for (samples_granted), so that pixels with little
    noise get more than they ask for, but far less than path tracing would give them. Filters make up
    for that. Where they reach no farther than the pixel nothing does, and faint shadows would be worse
-   than without all this; so there are at least half as many as pixels get at most, up to those that
-   bring noise to a quarter of what is aimed at. */
+   than without all this; so there are as many as at middling noise, up to those that bring noise to a
+   quarter of what is aimed at. `asked`: by noise. */
 #define WEDGE_LEAST_UNFILTERED 64.0f /* for mu = 1 */
 #define WEDGE_LEAST_NOISE 0.25f
 
-inline float least_samples(float mu, float noise_samples, float pixels) {
-    return fmin(WEDGE_LEAST_UNFILTERED * mu / fmax(pixels, 1.0f),
-                noise_samples / (WEDGE_LEAST_NOISE * WEDGE_LEAST_NOISE));
+inline float least_samples(float mu, float asked, float pixels) {
+    return fmin(WEDGE_LEAST_UNFILTERED * mu / fmax(pixels, 1.0f), asked / (WEDGE_LEAST_NOISE * WEDGE_LEAST_NOISE));
 }
 
 /* Width of a signal's filter, how many samples it asks for, by theory and by noise, and how many it
