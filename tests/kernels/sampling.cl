@@ -156,8 +156,8 @@ __kernel void eval_shadow_hues(__global const float4* rays, uint ray_count, __gl
 
 /* sizes: of a pixel face-on, along the surface; largest coordinate of the eye. */
 __kernel void eval_is_in_front(__global const float4* things, __global const float4* places,
-                             __global const float4* normals, __global const float4* sizes, uint count,
-                             __global float* out) {
+                               __global const float4* normals, __global const float4* sizes, uint count,
+                               __global float* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     const float4 s = sizes[id];

@@ -104,9 +104,9 @@ std::vector<float> SamplingKernels::levels(const std::vector<float4>& positions,
 }
 
 std::vector<float> SamplingKernels::in_front(const std::vector<float4>& things,
-                                            const std::vector<float4>& places,
-                                            const std::vector<float4>& normals,
-                                            const std::vector<float4>& sizes) {
+                                             const std::vector<float4>& places,
+                                             const std::vector<float4>& normals,
+                                             const std::vector<float4>& sizes) {
     const auto upload = [&](const std::vector<float4>& items) {
         return device_.upload_bytes(items.data(), items.size() * sizeof(float4), "places");
     };

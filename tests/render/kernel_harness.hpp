@@ -56,9 +56,10 @@ class SamplingKernels {
     std::vector<float> levels(const std::vector<float4>& positions, float pixel);
     /// is_in_front of kernels/lib/thin_things.clh, 1 or 0; `sizes`: face-on, along the surface, and
     /// the eye's largest coordinate.
-    std::vector<float> in_front(const std::vector<float4>& things, const std::vector<float4>& places,
-                               const std::vector<float4>& normals,
-                               const std::vector<float4>& sizes);
+    std::vector<float> in_front(const std::vector<float4>& things,
+                                const std::vector<float4>& places,
+                                const std::vector<float4>& normals,
+                                const std::vector<float4>& sizes);
     /// kernels/lib/filter_weight.clh; w of `positions`: widths. Weights of all for the first.
     std::vector<float> filter_weights(const std::vector<float4>& positions,
                                       const std::vector<float4>& normals, float4 along,
