@@ -7,6 +7,7 @@
    Widths are those of bandwidth.cl. What is done with the result: guard.cl.
    Arrays: include/wedge/shared/filter.h; places, sigmas and means in planes. Filters work on eight pixels side by side
    (lib/planes.clh). */
+#include "lib/coverage.clh"
 #include "lib/filter_weight.clh"
 #include "lib/flat_light.clh"
 #include "lib/line_fit.clh"
@@ -283,6 +284,52 @@ inline void add_sampled(const Planes* planes, const Group* group, const PixelSum
     }
 }
 
+/* By luminance, of the mean of both halves. */
+inline float part_luminance(const HalfLight* light) {
+    return 0.5f * luminance(light->halves[0].xyz + light->halves[1].xyz);
+}
+
+/* Notes what a surface has added to the light of a group's pixels. */
+inline void note_places(const Planes* planes, const Group* group, const PixelSums* sums, int surface,
+                        const HalfLight* light, PlaceSums* noted) {
+    const int first = group->y * planes->width + group->x, lanes = min(WEDGE_LANES, planes->width - group->x);
+    for (int lane = 0; lane < lanes; ++lane) {
+        const int pixel = first + lane, pixels = planes->width * planes->height;
+        const int entry = surface_entry(sums->more, pixels, pixel, surface);
+        if (entry < 0) continue;
+        __global const SurfaceSum* s = sums->surfaces + entry;
+        const float share = s->position.w / fmax(sums->film[pixel].normal.w, 1.0f), uneven = unevenness(s);
+        for (int part = lane * WEDGE_PARTS; part < (lane + 1) * WEDGE_PARTS; ++part)
+            add_places(noted + part, part_luminance(light + part), share, uneven);
+    }
+}
+
+/* The same of remainders, which come first. */
+inline void begin_places(const Planes* planes, const Group* group, const PixelSums* sums,
+                         const HalfLight* light, PlaceSums* noted) {
+    const int first = group->y * planes->width + group->x, pixels = planes->width * planes->height;
+    const PlaceSums none = {0.0f, 0.0f};
+    for (int part = 0; part < WEDGE_LANES * WEDGE_PARTS; ++part) {
+        noted[part] = none;
+        const float radiance = part_luminance(light + part);
+        if (!(radiance > 0.0f)) continue;
+        const float share =
+            remainder_share(sums->film, sums->surfaces, sums->more, pixels, first + part / WEDGE_PARTS);
+        add_places(noted + part, radiance, share, 1.0f);
+    }
+}
+
+inline void store_coverage(const Planes* planes, const Group* group, const PixelSums* sums,
+                           const PlaceSums* noted, __global float* coverage) {
+    const int first = group->y * planes->width + group->x, lanes = min(WEDGE_LANES, planes->width - group->x);
+    for (int part = 0; part < lanes * WEDGE_PARTS; ++part) {
+        __global const FilmPixel* film = sums->film + first + part / WEDGE_PARTS;
+        coverage[first * WEDGE_PARTS + part] = coverage_noise(noted[part], film->direct.w, film->normal.w);
+    }
+}
+
+/* `coverage`: of parts of pixels, noise that radiance as sampled has and their own samples have not
+   (lib/coverage.clh). */
 __kernel void filter_none(__global const float* restrict places, __global const FilmPixel* restrict film,
                           __global const SurfaceSum* restrict surface_sums, __global const uint* restrict more,
                           __global const float4* restrict reflected,
@@ -290,20 +337,24 @@ __kernel void filter_none(__global const float* restrict places, __global const 
                           __global const Remainder* restrict remainders,
                           __global const float4* restrict signal_sums,
                           __global const float* restrict means, __global HalfLight* restrict light,
-                          int width, int height) {
+                          __global float* restrict coverage, int width, int height) {
     const Planes planes = make_planes(width, height);
     const Group group = group_in_rows(&planes, (int)get_global_id(0));
     if (!is_on_film(&planes, &group)) return;
     const PixelSums sums = {film, surface_sums, more, reflected, corrections, remainders};
     HalfLight result[WEDGE_LANES * WEDGE_PARTS];
+    PlaceSums noted[WEDGE_LANES * WEDGE_PARTS];
     begin_light(&planes, &group, &sums, result);
+    begin_places(&planes, &group, &sums, result, noted);
     for (int surface = 0; surface < WEDGE_SURFACES; ++surface) {
         if (!any_surface(&planes, places, surface, group.at)) break;
         for (int signal = 0; signal < WEDGE_SIGNALS; ++signal) {
             const Means8 own = load_means8(&planes, means, surface, signal, group.at);
             add_light(&planes, places, &group, surface, signal, &own, &sums, result);
         }
+        note_places(&planes, &group, &sums, surface, result, noted);
     }
+    store_coverage(&planes, &group, &sums, noted, coverage);
     add_sampled(&planes, &group, &sums, signal_sums, result);
     store_light(&planes, &group, result, light, 0);
 }

@@ -54,14 +54,14 @@ inline float plain_noise(const float4* plain, __global const float4* own, float 
     return 0.25f * square * dot_rgb(colour, colour);
 }
 
-/* `plain`: radiance as sampled, of both halves. `light`: by scale, `stride` apart. */
-inline ScaleErrors errors_of(const float4* plain, float samples, __global const HalfLight* light,
+/* `plain`: radiance as sampled, of both halves. `coverage`: of filter_none. `light`: by scale, `stride` apart. */
+inline ScaleErrors errors_of(const float4* plain, float samples, float coverage, __global const HalfLight* light,
                              uint stride) {
     __global const float4 *a = light->halves, *b = light[stride].halves,
                           *c = light[2 * stride].halves, *d = light[3 * stride].halves;
     ScaleErrors e;
     const float drift = dot_rgb(a[0] - plain[0], a[1] - plain[1]);
-    e.plain = (float4)(plain_noise(plain, a, samples), drift, drift * drift, 0.0f);
+    e.plain = (float4)(plain_noise(plain, a, samples), drift, drift * drift, coverage);
     e.noise = (float4)(noise_of(a), noise_of(b), noise_of(c), noise_of(d));
     const float first = drift_of(b, a);
     e.drift = (float4)(first * first, first, drift_of(c, b), drift_of(d, c));
@@ -78,7 +78,7 @@ inline ScaleErrors add_errors(ScaleErrors a, float weight, ScaleErrors b) {
     const float square = weight * weight;
     const ScaleErrors sum = {a.noise + weight * b.noise,
                              a.drift + (float4)(square, weight, weight, weight) * b.drift,
-                             a.plain + (float4)(weight, weight, square, 0.0f) * b.plain};
+                             a.plain + (float4)(weight, weight, square, weight) * b.plain};
     return sum;
 }
 
@@ -97,7 +97,7 @@ inline float sample_count(__global const SampledLight* light) {
    A render that was stopped early has pixels without a second half. They know nothing: what their
    neighbours know decides, and if none knows anything, the filter is trusted. */
 __kernel void guard_errors(__global const SampledLight* restrict unfiltered,
-                           __global const HalfLight* restrict light,
+                           __global const HalfLight* restrict light, __global const float* restrict coverage,
                            __global ScaleErrors* restrict errors, uint count) {
     const uint id = get_global_id(0);
     if (id >= count) return;
@@ -105,7 +105,7 @@ __kernel void guard_errors(__global const SampledLight* restrict unfiltered,
     __global const float4* sums = sampled(u, id % WEDGE_PARTS);
     const float n0 = u->direct[0].w, n1 = u->direct[1].w;
     const float4 plain[2] = {sums[0] / n0, sums[1] / n1};
-    errors[id] = n1 > 0.0f ? errors_of(plain, n0 + n1, light + id, count) : no_errors();
+    errors[id] = n1 > 0.0f ? errors_of(plain, n0 + n1, coverage[id], light + id, count) : no_errors();
 }
 
 /* Mean of `errors` over WEDGE_GUARD_RADIUS pixels to each side, as far as they are on the film. The
@@ -213,7 +213,7 @@ inline Chosen choose(ScaleErrors estimates, __global const HalfLight* light,
                      uint stride, float4 unfiltered) {
     const float widths[WEDGE_SCALES] = WEDGE_SCALE_WIDTHS;
     const float plain = estimates.plain.x, shared = shared_bias(estimates, WEDGE_PLAIN_DOUBT);
-    const bool is_plain = WEDGE_CLEARLY * plain < estimates.noise.x + shared * shared;
+    const bool is_plain = WEDGE_CLEARLY * (plain + estimates.plain.w) < estimates.noise.x + shared * shared;
     const float4 errors =
         estimated_errors(estimates, is_plain ? shared : 0.0f, WEDGE_FIRST_DOUBT, WEDGE_NEXT_DOUBT);
     const float4 likely = likely_errors(estimates);

@@ -82,7 +82,8 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
                                          pixels * corrections(plan) * sizeof(float))},
         {"light before and after filters",
          pixels * (sizeof(shared::SampledLight) + sizeof(shared::Remainder) +
-                   uint64_t(plan_parts(plan)) * WEDGE_SCALES * sizeof(shared::HalfLight))},
+                   uint64_t(plan_parts(plan)) *
+                       (WEDGE_SCALES * sizeof(shared::HalfLight) + sizeof(float)))},
     };
 }
 
@@ -144,6 +145,7 @@ void SignalFilter::allocate(const shared::FilterSettings& settings) {
     allocate_planes();
     light_ =
         device_.allocate(WEDGE_SCALES * part_count() * sizeof(shared::HalfLight), "filtered light");
+    coverage_ = device_.allocate(part_count() * sizeof(float), "noise of coverage");
 }
 
 void SignalFilter::allocate_planes() {
@@ -222,13 +224,13 @@ void SignalFilter::set_args(uint32_t film_width, uint32_t film_height) {
                     width, height);
     set_kernel_args(means_kernel_, unfiltered_, places_, sums_, more_, means_, width, height);
     set_kernel_args(filter_none_, places_, film_, surface_sums_, more_, reflected_, corrections_,
-                    remainders_, sums_, means_, light_, width, height);
+                    remainders_, sums_, means_, light_, coverage_, width, height);
     set_kernel_args(filter_x_, settings_, scene_.lights, places_, sigmas_, means_, width, height,
                     1.0f, filtered_);
     set_kernel_args(filter_y_, settings_, scene_.lights, places_, sigmas_, filtered_, width, height,
                     1.0f, film_, surface_sums_, more_, reflected_, corrections_, remainders_,
                     light_, cl_int(0));
-    set_kernel_args(guard_errors_, unfiltered_, light_, errors_, parts);
+    set_kernel_args(guard_errors_, unfiltered_, light_, coverage_, errors_, parts);
     set_kernel_args(guard_smooth_, errors_, smoothed_, width, height);
     set_kernel_args(choose_, settings_, unfiltered_, light_, smoothed_, guarded_, width, height);
 }

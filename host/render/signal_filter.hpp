@@ -86,7 +86,7 @@ class SignalFilter {
     cl::Buffer settings_, sample_ends_, pixel_list_, rows_, surface_sums_, more_, sums_, distances_,
         reflected_, corrections_, unfiltered_, remainders_, thin_things_;
     cl::Buffer places_, found_, near_by_, ends_, sigmas_, means_, filtered_;  // in planes
-    cl::Buffer light_, errors_, smoothed_, guarded_;
+    cl::Buffer light_, coverage_, errors_, smoothed_, guarded_;
     cl::Kernel thin_kernel_, surfaces_kernel_, distances_kernel_, neighbours_kernel_,
         brightness_kernel_, bandwidth_kernel_, edge_noise_, flat_, means_kernel_, filter_none_,
         filter_x_, filter_y_, guard_errors_, guard_smooth_, choose_;

@@ -25,6 +25,7 @@ struct Light {
     std::vector<shared::SampledLight> unfiltered = std::vector<shared::SampledLight>(kPixels);
     std::vector<shared::HalfLight> scales =
         std::vector<shared::HalfLight>(WEDGE_SCALES * kParts * kPixels);
+    std::vector<float> coverage = std::vector<float>(kParts * kPixels);
 
     explicit Light(float bias = 0, uint32_t seed = 1) {
         std::mt19937 random(seed);
@@ -97,6 +98,7 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light,
     const cl::Buffer settings_buffer = device.upload_bytes(&settings, sizeof(settings), "settings");
     const cl::Buffer unfiltered = upload(light.unfiltered, "unfiltered");
     const cl::Buffer scales = upload(light.scales, "light");
+    const cl::Buffer coverage = upload(light.coverage, "coverage");
     const cl::Buffer errors = upload(no_errors, "errors"), smoothed = upload(no_errors, "errors");
     const cl::Buffer result = upload(guarded, "guarded");
     const auto launch = [&](const char* name, const auto&... args) {
@@ -105,7 +107,7 @@ std::vector<shared::GuardedPixel> run_guard(const Light& light,
         (kernel.setArg(index++, args), ...);
         device.launch(kernel, kParts * kPixels);
     };
-    launch("guard_errors", unfiltered, scales, errors, cl_uint(kParts * kPixels));
+    launch("guard_errors", unfiltered, scales, coverage, errors, cl_uint(kParts * kPixels));
     launch("guard_smooth", errors, smoothed, cl_int(kSide), cl_int(kSide));
     launch("guard_choose", settings_buffer, unfiltered, scales, smoothed, result, cl_int(kSide),
            cl_int(kSide));
@@ -320,6 +322,23 @@ TEST_CASE("a_bias_of_all_filters_is_seen") {
     CHECK(error < 0.006);
     CHECK(measured > 0.8 * error);
     CHECK(measured < 1.2 * error);
+}
+
+/// Direct light that is taken where paths, too few to meet what is bright, are darker by a fifth
+/// and agree.
+double light_that_paths_miss(float coverage_noise) {
+    Light light = Light::without_noise();
+    for (int i = 0; i < kPixels; ++i)
+        for (int half = 0; half < 2; ++half) light.sample(i, half, 0.8f);
+    light.coverage.assign(light.coverage.size(), coverage_noise);
+    double sum = 0;
+    for (const auto& pixel : run_guard(light)) sum += double(pixel.direct.x) / kPixels;
+    return sum;
+}
+
+TEST_CASE("what_camera_rays_alone_have_met_is_no_bias") {
+    CHECK(light_that_paths_miss(0.02f) < 0.9);  // 0.04 is the square of what they miss
+    CHECK(light_that_paths_miss(0.028f) == doctest::Approx(1).epsilon(1e-4).scale(1e-9));
 }
 
 /// Mean widths that are taken, of direct and of indirect light, where the noise of the mean of both

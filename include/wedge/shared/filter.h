@@ -101,7 +101,8 @@ typedef struct ScaleErrors {
     float4 drift; /* y, z, w: square of what the filter adds to the bias of the next narrower one;
                      x: square of y, of a pixel; of a mean over pixels, its variance */
     float4 plain; /* of the pixel's radiance as it was sampled; x: noise; y: square of the drift
-                     from it to the first scale; z: as drift.x, of y; w: 0 */
+                     from it to the first scale; z: as drift.x, of y; w: more noise, of where paths
+                     looked, that x may not tell */
 } ScaleErrors;
 WEDGE_ASSERT_SIZE(ScaleErrors, 48);
 
