@@ -239,7 +239,9 @@ __kernel void filter_bandwidth(
     const bool is_edge = ends[at] > 0.0f || has_more_surfaces(film + pixel, surface_sums + pixel);
     const Contrast contrast = contrast_at(film, surfaces, is_edge, x, y, width, height);
     uint rays = camera_rays_of(settings, contrast, is_edge, mean_brightness);
-    if (misses_thin_thing(params, nearness[pixel], &planes, places, x, y))
+    /* Also where it has been met, or those who met it by luck would stop there, with too much of it. */
+    const bool shows_thin_thing = nearness[pixel] > 0.0f && is_edge;
+    if (shows_thin_thing || misses_thin_thing(params, nearness[pixel], &planes, places, x, y))
         rays = max(rays, camera_rays(settings, WEDGE_FAINTEST_EDGE, mean_brightness, least_at_edges(settings)));
     sample_ends[pixel].paths = end;
     sample_ends[pixel].camera_rays = max(max(end, before.camera_rays_before), rays);

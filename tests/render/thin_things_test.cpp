@@ -101,6 +101,46 @@ TEST_CASE("pixels_do_not_look_for_thin_things_under_or_in_the_ground") {
     CHECK(rays(make_wires(0.025f, 20)) > 1.2 * double(none));
 }
 
+/// Light of white wires, a sixtieth of a pixel wide: the mean over seeds, and the error of pixels,
+/// as shares of the truth.
+struct LightOfWires {
+    double mean = 0, error = 0;
+};
+
+/// Over a ground that reflects so much, or before nothing (below 0).
+LightOfWires light_of_wires(float ground, float mu) {
+    constexpr uint32_t kSeeds = 16;
+    Scene scene = make_wires(1.0f / 60, 20);
+    scene.materials = {lambert(std::fmax(ground, 0.0f)), lambert(0.8f)};
+    if (ground < 0) scene.instances.erase(scene.instances.begin());
+    const auto truth =
+        channel_values(render(scene, quick(16384, 0, Sampler::lattice, 9)).image, "G");
+    double sum = 0, true_sum = 0, square = 0, true_square = 0;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+        const auto found = channel_values(render(scene, filtered(mu, seed)).image, "G");
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            sum += found[i];
+            true_sum += truth[i];
+            square += std::pow(found[i] - truth[i], 2);
+            true_square += std::pow(truth[i], 2);
+        }
+    }
+    return {sum / true_sum, std::sqrt(square / true_square)};
+}
+
+// Paths miss nearly all of them. What these say, who agree that there is nothing, is not the truth;
+// and who has met one with a few camera rays looks on, or there would be too much of it.
+TEST_CASE("wires_on_black_keep_their_light") {
+    for (const float ground : {-1.0f, 0.0f})
+        for (const auto& [mu, error] : {std::pair(1.0f, 0.4), {4.0f, 0.15}}) {
+            CAPTURE(ground);
+            CAPTURE(mu);
+            const LightOfWires light = light_of_wires(ground, mu);
+            CHECK(light.mean == doctest::Approx(1).epsilon(0.03).scale(1e-9));
+            CHECK(light.error < error);
+        }
+}
+
 TEST_CASE("explain_tells_whether_thin_things_are_looked_for") {
     const auto has = [](const Scene& scene, const RenderOptions& options, const char* line) {
         return explain(scene, options).find(line) != std::string::npos;
