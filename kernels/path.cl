@@ -166,6 +166,7 @@ __kernel void trace_paths(__global const FrameParams* restrict params, WEDGE_SCE
                             .unfiltered = all_unfiltered + pixel,
                             .remainder = all_remainders + pixel,
                             .pixel_angle = filter_settings->pixel_angle,
+                            .least_samples = least_surface_samples(filter_settings->mu, ends.paths),
                             .probing = probing};
 #endif
     for (uint batch = 0; batch < sample_count; batch += WEDGE_SAMPLE_BATCH) {

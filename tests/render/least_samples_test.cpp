@@ -93,5 +93,52 @@ TEST_CASE("pixels_in_wide_penumbrae_need_not_keep_up") {
     CHECK(sum / count < 19);  // 22 if they had to
 }
 
+/// A wire, a fiftieth of a pixel wide, on black ground: in the penumbra of a board close to it,
+/// which filters cannot make smooth.
+Scene make_wire_in_shadow() {
+    constexpr int kPixels = 32;
+    Scene scene = make_scene({make_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 1),
+                              make_quad({-0.0106f, 0.2f, -2}, {0, 0, 4}, {0.0012f, 0, 0}, 0),
+                              make_quad({0, 0.4f, -2}, {0, 0, 4}, {2, 0, 0}, 1)},
+                             {lambert(0.8f), lambert(0)});
+    scene.film = {kPixels, kPixels};
+    scene.camera = {.position = {0, 8, 0},
+                    .target = {0, 0, 0},
+                    .up = {0.4f, 0, 1},
+                    .vertical_fov_rad = 2 * std::atan(0.97f / 8)};
+    scene.rect_lights = {{.center = {0, 10, 0},
+                          .edge_u = {3, 0, 0},
+                          .edge_v = {0, 0, 3},
+                          .radiance = Vec3(20),
+                          .profile = LightProfile::uniform}};
+    return scene;
+}
+
+/// Light on the wire, pixel by pixel: mean square of its relative error.
+double error_of_light_on_wire(float mu, uint32_t seed) {
+    const Scene scene = make_wire_in_shadow();
+    const Image frame = render(scene, filtered(mu, seed)).image;
+    const Image truth = render(scene, quick(4096, 0, Sampler::lattice, 9)).image;
+    // By how much of the pixel it covers, of which noise is another matter.
+    const double expected = channel_mean(truth, "direct.G") / channel_mean(truth, "albedo.G");
+    const auto light = channel_values(frame, "direct.G"), share = channel_values(frame, "albedo.G");
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        if (!(share[i] > 0)) continue;
+        sum += std::pow(light[i] / (share[i] * expected) - 1, 2);
+        count += 1;
+    }
+    REQUIRE(count > 30);
+    return sum / count;
+}
+
+// Hardly a path of a pixel meets what its camera rays look for.
+TEST_CASE("light_on_what_covers_little_of_a_pixel_keeps_up_with_mu") {
+    double sum = 0;
+    for (uint32_t seed = 0; seed < 4; ++seed) sum += error_of_light_on_wire(8, seed);
+    CAPTURE(std::sqrt(sum / 4));
+    CHECK(std::sqrt(sum / 4) < 0.055);
+}
+
 }  // namespace
 }  // namespace wedge::test
