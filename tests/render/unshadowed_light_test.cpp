@@ -199,5 +199,34 @@ TEST_CASE("a_lamp_that_dips_below_the_horizon_is_cut_off_there") {
     }
 }
 
+/// Two steps of one colour that face alike, the farther one lower and beyond a lamp that lights the
+/// nearer one, seen so flatly that most of both are in the same pixels.
+Scene make_steps() {
+    Scene scene = make_scene({make_quad({-4, 0.3f, 0}, {0, 0, 2}, {8, 0, 0}, 0),
+                              make_quad({-4, 0, -20}, {0, 0, 20}, {8, 0, 0}, 0)},
+                             {lambert(kAlbedo)});
+    scene.film = {9, 9};
+    scene.camera = {.position = {0, 0.6f, 5}, .target = {0, 0.3f, 0}, .vertical_fov_rad = 0.02f};
+    scene.rect_lights = {{.center = {0, 1.3f, 0.5f},
+                          .edge_u = {0.2f, 0, 0},
+                          .edge_v = {0, 0, 0.2f},
+                          .radiance = Vec3(50),
+                          .profile = LightProfile::uniform}};
+    return scene;
+}
+
+// An arc could join them, so that they are one surface; but not one plane, and the light where that
+// would be is not the mean of theirs.
+TEST_CASE("steps_that_face_alike_are_no_flat_ground") {
+    const Scene scene = make_steps();
+    const auto truth =
+        channel_values(render(scene, quick(4096, 0, Sampler::lattice, 9)).image, "G");
+    const auto found = channel_values(render(scene, filtered(4)).image, "G");
+    double most = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        most = std::max(most, std::fabs(found[i] / truth[i] - 1));
+    CHECK(most < 0.03);
+}
+
 }  // namespace
 }  // namespace wedge::test
