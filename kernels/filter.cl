@@ -73,8 +73,11 @@ typedef struct {
     float scale;
 } Filter;
 
-inline float3 filter_axis(const Filter* filter, int signal) {
-    return is_light(signal) ? filter->lights[signal].normal.xyz : (float3)(0.0f);
+inline Cast8 filter_cast(const Filter* filter, const Places8* p, int signal) {
+    if (!is_light(signal)) return no_cast8();
+    __global const Light* light = filter->lights + signal;
+    const float3 middle = light->origin.xyz + 0.5f * (light->edge_u.xyz + light->edge_v.xyz);
+    return cast8(p, light->normal.xyz, middle);
 }
 
 /* The pixels of a row or a column that filters for a group may reach: `before` to the one side, `after` to the other.
@@ -101,7 +104,7 @@ inline Means8 filter_line(const Filter* filter, const Group* group, Line line, i
     const Places8 p = load_places8(planes, filter->places, surface, group->at);
     const float8 sigma = filter_sigma8(filter, surface * WEDGE_SIGNALS + signal, group->at);
     const float8 reach = filter_reach8(filter, &p, sigma);
-    const float3 along = filter_axis(filter, signal);
+    const Cast8 cast = filter_cast(filter, &p, signal);
     const Means8 own = load_means8(planes, filter->signals, surface, signal, group->at);
     LineSums8 sums = no_line8();
     add_to_line8(&sums, 0.0f, (float8)(1.0f), p.size > 0.0f, &own, signal);
@@ -116,7 +119,7 @@ inline Means8 filter_line(const Filter* filter, const Group* group, Line line, i
             const int8 is_there = reached & (q.size > 0.0f);
             if (!lane_bits8(is_there)) break;
             const float8 sigma_q = filter_sigma8(filter, other * WEDGE_SIGNALS + signal, at);
-            const float8 w = keep_lanes(filter_weight8(&p, sigma, &q, sigma_q, along), is_there);
+            const float8 w = keep_lanes(filter_weight8(&p, sigma, &q, sigma_q, &cast), is_there);
             const int8 counts = w > 0.0f;
             if (!lane_bits8(counts)) continue;
             const Means8 theirs = load_means8(planes, filter->signals, other, signal, at);

@@ -113,13 +113,14 @@ inline Places8 place8(float4 position, float4 normal, float pixel) {
     return p;
 }
 
-/* in: position, width of the filter; normal. Weights of each for the first. */
+/* in: position, width of the filter; normal. Weights of each for the first; `along`: normal of a light, 0: none. */
 __kernel void eval_filter_weights(__global const float4* positions, __global const float4* normals,
-                                  float4 along, float pixel, uint count, __global float4* out) {
+                                  float4 along, float4 middle, float pixel, uint count, __global float4* out) {
     const uint id = get_global_id(0);
     if (id >= count) return;
     const Places8 p = place8(positions[0], normals[0], pixel), q = place8(positions[id], normals[id], pixel);
-    out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, along.xyz).s5);
+    const Cast8 cast = length(along.xyz) > 0.0f ? cast8(&p, along.xyz, middle.xyz) : no_cast8();
+    out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, &cast).s5);
 }
 
 /* Whether places are on one surface with that at 0, whose normal is y. */

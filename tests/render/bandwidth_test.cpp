@@ -95,7 +95,9 @@ TEST_CASE("samples_that_are_granted_go_with_a_power_of_what_is_asked_for") {
     CHECK(granted[4] == 0);
 }
 
-TEST_CASE("filter_weights_are_gaussians_of_the_distance_along_the_light") {
+// Shadows move along the rays from the light: what counts is the distance parallel to it, from
+// where the ray through the first place is as far away as the other.
+TEST_CASE("filter_weights_are_gaussians_of_the_distance_that_the_light_sees") {
     SamplingKernels kernels;
     const float4 up{0, 1, 0, 0};
     const float pixel = 0.01f;
@@ -105,13 +107,18 @@ TEST_CASE("filter_weights_are_gaussians_of_the_distance_along_the_light") {
                                         {1, 0, 1.2f, 0.5f},    {0.1f, 0, 0, 9}};
     const std::vector<float4> normals(places.size(), up);
     const float4 tilted{float(std::sin(0.4)), float(std::cos(0.4)), 0, 0};
+    const float4 middle{0.5f, 2, -0.3f, 0};
     for (const float4& along : {float4{0, 0, 0, 0}, up, tilted}) {
-        const std::vector<float> found = kernels.filter_weights(places, normals, along, pixel);
+        const std::vector<float> found =
+            kernels.filter_weights(places, normals, along, middle, pixel);
+        const auto away = [&](const float4& p) {
+            return double(along.x * p.x + along.y * p.y + along.z * p.z);
+        };
         for (std::size_t i = 0; i < places.size(); ++i) {
-            const double off =
-                along.x * places[i].x + along.y * places[i].y + along.z * places[i].z;
-            const double r2 = std::pow(places[i].x, 2) + std::pow(places[i].y, 2) +
-                              std::pow(places[i].z, 2) - off * off;
+            const double step = away(middle) > 0 ? away(places[i]) / away(middle) : 0;
+            const double r2 = std::pow(places[i].x - step * middle.x, 2) +
+                              std::pow(places[i].y - step * middle.y, 2) +
+                              std::pow(places[i].z - step * middle.z, 2);
             const double sigma = std::min(places[0].w, places[i].w);
             const double truth = r2 < 9 * sigma * sigma ? std::exp(-r2 / (2 * sigma * sigma)) : 0;
             CHECK(found[i] == doctest::Approx(truth).epsilon(1e-4).scale(1e-9));
@@ -133,7 +140,8 @@ TEST_CASE("surfaces_that_differ_have_no_weight_for_each_other") {
         {0.001f, 0.007f, 0, 1}, {0.5f, 0.09f, 0, 1}, {0.5f, 0.12f, 0, 1}};
     const std::vector<float4> normals = {turned(0), turned(19), turned(21), turned(0),
                                          turned(0), turned(0),  turned(0)};
-    const std::vector<float> w = kernels.filter_weights(places, normals, {0, 0, 0, 0}, pixel);
+    const std::vector<float> w =
+        kernels.filter_weights(places, normals, {0, 0, 0, 0}, {0, 0, 0, 0}, pixel);
     CHECK(w[1] > 0.05f);
     CHECK(w[1] < 0.15f);
     CHECK(w[2] == 0.0f);

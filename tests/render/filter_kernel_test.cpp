@@ -69,7 +69,14 @@ double weight(BumpyFilm& f, int a, int px, int py, int b, int qx, int qy, int si
     if (cosine < least) return 0;
     const double over = std::abs(off) - 0.5 * f.place(a, WEDGE_PLACE_SIZE, px, py);
     if (over >= 0 && over * over >= std::pow(std::tan(ten_degrees), 2) * r2) return 0;
-    if (along_y) r2 -= d[1] * d[1];
+    if (along_y) {
+        r2 = 0;
+        const double below = double(kLampMiddle[1]) - f.place(a, WEDGE_PLACE_Y, px, py);
+        for (int c = 0; c < 3; ++c) {
+            const double to_lamp = double(kLampMiddle[c]) - f.place(a, WEDGE_PLACE_X + c, px, py);
+            r2 += std::pow(d[c] - d[1] * to_lamp / below, 2);
+        }
+    }
     const double sigma = scale * std::min(double(f.sigmas.at(a * kSignals + signal, px, py)),
                                           double(f.sigmas.at(b * kSignals + signal, qx, qy)));
     if (r2 >= 9 * sigma * sigma) return 0;

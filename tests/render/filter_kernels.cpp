@@ -22,6 +22,7 @@ struct FilterKernel {
         settings[0].max_radius_px = kMaxRadius_px;
         std::vector<shared::Light> lights(1);
         lights[0].normal = {0, 1, 0, 0};
+        lights[0].origin = {kLampMiddle[0], kLampMiddle[1], kLampMiddle[2], 0};
         add(upload(device, settings));
         add(upload(device, lights));
         for (const Planes* planes : {&film.places, &film.sigmas, &film.means})

@@ -13,6 +13,9 @@ constexpr int kSignals = 2;  // of one light, and of the hemisphere
 constexpr int kMeanPlanes = WEDGE_LIGHT_PLANES + WEDGE_HEMISPHERE_PLANES;
 constexpr int kMaxRadius_px = 4;
 
+/// Of the light, a point whose normal is +y.
+constexpr float kLampMiddle[3] = {1.3f, 4, -0.4f};
+
 /// What filters read, by surfaces of pixels: places (world units), widths (the same), means of
 /// signals. Nothing is anywhere at first.
 struct FilterFilm {

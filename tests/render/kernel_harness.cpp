@@ -117,14 +117,14 @@ std::vector<float> SamplingKernels::in_front(const std::vector<float4>& things,
 
 std::vector<float> SamplingKernels::filter_weights(const std::vector<float4>& positions,
                                                    const std::vector<float4>& normals, float4 along,
-                                                   float pixel) {
+                                                   float4 middle, float pixel) {
     const auto count = uint32_t(positions.size());
     const uint64_t bytes = positions.size() * sizeof(positions[0]);
     const cl::Buffer places = device_.upload_bytes(positions.data(), bytes, "places");
     const cl::Buffer directions = device_.upload_bytes(normals.data(), bytes, "normals");
     std::vector<float> weights;
     for (const float4& w :
-         run<float4>("eval_filter_weights", count, places, directions, along, pixel, count))
+         run<float4>("eval_filter_weights", count, places, directions, along, middle, pixel, count))
         weights.push_back(w.x);
     return weights;
 }

@@ -63,7 +63,7 @@ class SamplingKernels {
     /// kernels/lib/filter_weight.clh; w of `positions`: widths. Weights of all for the first.
     std::vector<float> filter_weights(const std::vector<float4>& positions,
                                       const std::vector<float4>& normals, float4 along,
-                                      float pixel);
+                                      float4 middle, float pixel);
     /// kernels/lib/shadow_hue.clh; `rays`: light, w: half, and 2 more where it is seen. Factors of
     /// both halves, of light of which such a share is seen.
     std::vector<float4> shadow_hues(const std::vector<float4>& rays, float share = 1e-3f);
