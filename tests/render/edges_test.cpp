@@ -11,7 +11,7 @@ namespace wedge::test {
 namespace {
 
 /// Stripes of two materials, `width` pixels each, on a ground that fills the film, under a lamp
-/// that nothing hides. Aslant: edges along the film's axes are found far better.
+/// that nothing hides.
 Scene make_stripes(float width) {
     constexpr int kPixels = 32;
     Scene scene;
@@ -22,16 +22,7 @@ Scene make_stripes(float width) {
         stripes.push_back(make_quad({-1.5f + step * float(i), 0, -1.5f}, {0, 0, 3}, {step, 0, 0},
                                     uint32_t(i % 2)));
     scene = make_scene(stripes, {lambert(0.9f), lambert(0.1f)});
-    scene.film = {kPixels, kPixels};
-    scene.camera = {.position = {0, 8, 0},
-                    .target = {0, 0, 0},
-                    .up = {0.4f, 0, 1},
-                    .vertical_fov_rad = 2 * std::atan(0.97f / 8)};
-    scene.rect_lights = {{.center = {0, 10, 0},
-                          .edge_u = {3, 0, 0},
-                          .edge_v = {0, 0, 3},
-                          .radiance = Vec3(20),
-                          .profile = LightProfile::uniform}};
+    look_down_aslant(scene);
     return scene;
 }
 

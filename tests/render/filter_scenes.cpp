@@ -19,6 +19,19 @@ Scene make_penumbra(LightProfile profile) {
     return scene;
 }
 
+void look_down_aslant(Scene& scene) {
+    scene.film = {32, 32};
+    scene.camera = {.position = {0, 8, 0},
+                    .target = {0, 0, 0},
+                    .up = {0.4f, 0, 1},
+                    .vertical_fov_rad = 2 * std::atan(0.97f / 8)};
+    scene.rect_lights = {{.center = {0, 10, 0},
+                          .edge_u = {3, 0, 0},
+                          .edge_v = {0, 0, 3},
+                          .radiance = Vec3(20),
+                          .profile = LightProfile::uniform}};
+}
+
 RenderOptions filtered(float mu, uint32_t seed) {
     RenderOptions options;
     options.bounces = 0;

@@ -96,21 +96,11 @@ TEST_CASE("pixels_in_wide_penumbrae_need_not_keep_up") {
 /// A wire, a fiftieth of a pixel wide, on black ground: in the penumbra of a board close to it,
 /// which filters cannot make smooth.
 Scene make_wire_in_shadow() {
-    constexpr int kPixels = 32;
     Scene scene = make_scene({make_quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 1),
                               make_quad({-0.0106f, 0.2f, -2}, {0, 0, 4}, {0.0012f, 0, 0}, 0),
                               make_quad({0, 0.4f, -2}, {0, 0, 4}, {2, 0, 0}, 1)},
                              {lambert(0.8f), lambert(0)});
-    scene.film = {kPixels, kPixels};
-    scene.camera = {.position = {0, 8, 0},
-                    .target = {0, 0, 0},
-                    .up = {0.4f, 0, 1},
-                    .vertical_fov_rad = 2 * std::atan(0.97f / 8)};
-    scene.rect_lights = {{.center = {0, 10, 0},
-                          .edge_u = {3, 0, 0},
-                          .edge_v = {0, 0, 3},
-                          .radiance = Vec3(20),
-                          .profile = LightProfile::uniform}};
+    look_down_aslant(scene);
     return scene;
 }
 
