@@ -1,5 +1,6 @@
 /* The sampling routines of kernels/lib, laid open for the tests in tests/render. */
 #include "lib/bandwidth.clh"
+#include "lib/coverage.clh"
 #include "lib/filter_weight.clh"
 #include "lib/light.clh"
 #include "lib/random.clh"
@@ -121,6 +122,23 @@ __kernel void eval_filter_weights(__global const float4* positions, __global con
     const Places8 p = place8(positions[0], normals[0], pixel), q = place8(positions[id], normals[id], pixel);
     const Cast8 cast = length(along.xyz) > 0.0f ? cast8(&p, along.xyz, middle.xyz) : no_cast8();
     out[id] = (float4)(filter_weight8(&p, positions[0].w, &q, positions[id].w, &cast).s5);
+}
+
+/* in: colour and irradiance, both grey, of camera rays, `each` of them on one surface after another. surfaces: all 0.
+   out: noise of so many paths beyond that of the rays. */
+__kernel void eval_coverage_noise(__global const float4* in, uint count, uint each, __global SurfaceSum* surfaces,
+                                  uint paths, __global float* out) {
+    PlaceSums sums = {0.0f, 0.0f};
+    for (uint i = 0; i < count; ++i) {
+        __global SurfaceSum* s = surfaces + i / each;
+        s->position.w += 1.0f;
+        s->diffuse.xyz += (float3)(in[i].x);
+        s->specular.w += in[i].x * in[i].x;
+        if ((i + 1) % each > 0 && i + 1 < count) continue;
+        const float light = luminance(s->diffuse.xyz) * in[i].y / (float)count;
+        add_places(&sums, sums.light + light, s->position.w / (float)count, unevenness(s));
+    }
+    out[0] = coverage_noise(sums, (float)paths, (float)count);
 }
 
 /* Whether places are on one surface with that at 0, whose normal is y. */

@@ -129,6 +129,16 @@ std::vector<float> SamplingKernels::filter_weights(const std::vector<float4>& po
     return weights;
 }
 
+float SamplingKernels::coverage_noise(const std::vector<float4>& rays, uint32_t each,
+                                      uint32_t paths) {
+    const cl::Buffer list =
+        device_.upload_bytes(rays.data(), rays.size() * sizeof(rays[0]), "rays");
+    const auto count = uint32_t(rays.size());
+    const cl::Buffer surfaces =
+        device_.allocate_zeros((count / each + 1) * sizeof(shared::SurfaceSum), "surfaces");
+    return run<float>("eval_coverage_noise", 1, list, count, each, surfaces, paths)[0];
+}
+
 std::vector<float4> SamplingKernels::shadow_hues(const std::vector<float4>& rays, float share) {
     const cl::Buffer list =
         device_.upload_bytes(rays.data(), rays.size() * sizeof(rays[0]), "rays");

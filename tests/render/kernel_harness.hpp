@@ -64,6 +64,9 @@ class SamplingKernels {
     std::vector<float> filter_weights(const std::vector<float4>& positions,
                                       const std::vector<float4>& normals, float4 along,
                                       float4 middle, float pixel);
+    /// kernels/lib/coverage.clh; `rays`: grey colour and irradiance, `each` of them on one surface.
+    /// Mean square error of so many paths beyond that of the rays.
+    float coverage_noise(const std::vector<float4>& rays, uint32_t each, uint32_t paths);
     /// kernels/lib/shadow_hue.clh; `rays`: light, w: half, and 2 more where it is seen. Factors of
     /// both halves, of light of which such a share is seen.
     std::vector<float4> shadow_hues(const std::vector<float4>& rays, float share = 1e-3f);
