@@ -154,12 +154,14 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
    noise get more than they ask for, but far less than path tracing would give them. Filters make up
    for that. Where they reach no farther than the pixel nothing does, and faint shadows would be worse
    than without all this; so there are as many as at middling noise, up to those that bring noise to a
-   quarter of what is aimed at. `asked`: by noise. */
+   quarter of what is aimed at. Over the root of the number of pixels reached: the bias that comes with
+   a filter takes back about half of what it gains, counted in doublings. `asked`: by noise. */
 #define WEDGE_LEAST_UNFILTERED 64.0f /* for mu = 1 */
 #define WEDGE_LEAST_NOISE 0.25f
 
 inline float least_samples(float mu, float asked, float pixels) {
-    return fmin(WEDGE_LEAST_UNFILTERED * mu / fmax(pixels, 1.0f), asked / (WEDGE_LEAST_NOISE * WEDGE_LEAST_NOISE));
+    const float least = WEDGE_LEAST_UNFILTERED * mu / sqrt(fmax(pixels, 1.0f));
+    return fmin(least, asked / (WEDGE_LEAST_NOISE * WEDGE_LEAST_NOISE));
 }
 
 /* Width of a signal's filter, how many samples it asks for, by theory and by noise, and how many it

@@ -29,16 +29,17 @@ int camera_rays_at_edges(int bounces) {
 /// that go with n^(-p / 6), about the cube root of 1 / mu: n, the samples, goes with mu^1.4, and p
 /// is up to 1.5. By measurement (docs/tried.md) shadows are worth narrower filters than the
 /// equations ask for, since few samples tell more of a lamp than of the hemisphere, and diffuse
-/// light from there wider ones, which the guard holds back where they do harm. Light that it knows
-/// less well, of lobes and of other lamps, keeps the square root, with which bias falls faster as
-/// mu rises.
+/// light from there wider ones, which the guard holds back where they do harm. From mu = 1 on
+/// shadows take the square root, or faint ones, with less noise than most, would be left with bias.
+/// Light that the guard knows less well, of lobes and of other lamps, has it for any mu.
 struct Narrowing {
     float shadows, diffuse, others;
 };
 
 Narrowing narrowing_at(float mu) {
-    const float root = std::cbrt(mu);
-    return {kNarrowShadows * root, root / kWideDiffuse, std::sqrt(mu)};
+    const float square_root = std::sqrt(mu), cube_root = std::cbrt(mu);
+    return {kNarrowShadows * std::max(square_root, cube_root), cube_root / kWideDiffuse,
+            square_root};
 }
 
 /// A power of two, which the sampler likes best.

@@ -93,6 +93,26 @@ TEST_CASE("pixels_in_wide_penumbrae_need_not_keep_up") {
     CHECK(sum / count < 19);  // 22 if they had to
 }
 
+// What reaches five pixels gains less than five times the samples would, for it has a bias.
+TEST_CASE("pixels_with_narrow_filters_keep_up_by_half") {
+    Scene scene = make_faint_shadows(0.7f);
+    for (std::size_t i = 2; i < scene.meshes.size(); ++i)
+        for (Vec3& p : scene.meshes[i].positions) p.y = 1.8f;
+    const Image image = render(scene, filtered(4)).image;
+    const auto spp = channel_values(image, "spp"), width = channel_values(image, "width.direct"),
+               height = channel_values(image, "P.Y");
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < spp.size(); ++i) {
+        if (height[i] > 1e-4 || width[i] < 0.5 || width[i] > 0.7) continue;
+        sum += spp[i];
+        count += 1;
+    }
+    CAPTURE(sum / count);
+    REQUIRE(count > 100);
+    CHECK(sum / count > 65);   // 50 over the number of pixels
+    CHECK(sum / count < 105);  // 137 over nothing
+}
+
 /// A wire, a fiftieth of a pixel wide, on black ground: in the penumbra of a board close to it,
 /// which filters cannot make smooth.
 Scene make_wire_in_shadow() {

@@ -29,11 +29,15 @@ double narrowing_to_8(const Scene& scene, const char* layer) {
 TEST_CASE("filters_narrow_by_roots_of_mu") {
     Scene room = make_room(0);
     room.film = {32, 24};
-    CHECK(narrowing_to_8(room, "width.direct") == doctest::Approx(2).epsilon(0.02).scale(1e-9));
+    CHECK(narrowing_to_8(room, "width.direct") ==
+          doctest::Approx(std::sqrt(8)).epsilon(0.02).scale(1e-9));
     CHECK(narrowing_to_8(room, "width.indirect") == doctest::Approx(2).epsilon(0.02).scale(1e-9));
     const auto at_8 = rendering::make_filter_settings(room, filtered(8), 8);
-    CHECK(at_8.narrowing_shadows == doctest::Approx(2.8).scale(1e-9));
+    CHECK(at_8.narrowing_shadows == doctest::Approx(1.4 * std::sqrt(8)).scale(1e-9));
     CHECK(at_8.narrowing_diffuse == doctest::Approx(1.6).scale(1e-9));
+    const auto at_eighth = rendering::make_filter_settings(room, filtered(0.125f), 0.125f);
+    CHECK(at_eighth.narrowing_shadows == doctest::Approx(0.7).scale(1e-9));
+    CHECK(at_eighth.narrowing_diffuse == doctest::Approx(0.4).scale(1e-9));
     Scene lit_by_mesh = make_scene(
         {make_box(Vec3(-1), Vec3(1), true, 0), make_sphere({0, 0.5f, -0.4f}, 0.2f, 8, false, 1)},
         {lambert(0.5f), lambert(0)});

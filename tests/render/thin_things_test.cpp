@@ -77,7 +77,7 @@ TEST_CASE("pixels_look_for_what_is_thinner_than_they_are") {
     const Image truth = render(scene, quick(8192, 0, Sampler::lattice, 9)).image;
     RenderOptions options = filtered(1);
     const Image found = render(scene, options).image;
-    CHECK(channel_mean(found, "spp") < 25);
+    CHECK(channel_mean(found, "spp") < 32);  // 128 were all to look
     CHECK(error_of_cover(found, truth, {0, 0, 32, 32}) < 0.35);  // 0.67 by the samples alone
 }
 
