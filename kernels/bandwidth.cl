@@ -156,11 +156,11 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
    than without all this; so there are as many as at middling noise, up to those that bring noise to a
    quarter of what is aimed at. Over the root of the number of pixels reached: the bias that comes with
    a filter takes back about half of what it gains, counted in doublings. `asked`: by noise. */
-#define WEDGE_LEAST_UNFILTERED 64.0f /* for mu = 1 */
+#define WEDGE_LEAST_UNFILTERED 64.0f /* for mu = 1; below it as its root, as samples in the middle */
 #define WEDGE_LEAST_NOISE 0.25f
 
 inline float least_samples(float mu, float asked, float pixels) {
-    const float least = WEDGE_LEAST_UNFILTERED * mu / sqrt(fmax(pixels, 1.0f));
+    const float least = WEDGE_LEAST_UNFILTERED * fmax(mu, sqrt(mu)) / sqrt(fmax(pixels, 1.0f));
     return fmin(least, asked / (WEDGE_LEAST_NOISE * WEDGE_LEAST_NOISE));
 }
 

@@ -29,16 +29,17 @@ int camera_rays_at_edges(int bounces) {
 /// that go with n^(-p / 6), about the cube root of 1 / mu: n, the samples, goes with mu^1.4, and p
 /// is up to 1.5. By measurement (docs/tried.md) shadows are worth narrower filters than the
 /// equations ask for, since few samples tell more of a lamp than of the hemisphere, and diffuse
-/// light from there wider ones, which the guard holds back where they do harm. From mu = 1 on
-/// shadows take the square root, or faint ones, with less noise than most, would be left with bias.
-/// Light that the guard knows less well, of lobes and of other lamps, has it for any mu.
+/// light from there wider ones, which the guard holds back where they do harm. Faint shadows, with
+/// fewer samples and less noise than most, are left with bias before all others, so that shadows
+/// take the fourth root up to mu = 1, as for p = 1, and the square root beyond. Light that the
+/// guard knows less well, of lobes and of other lamps, has the square root for any mu.
 struct Narrowing {
     float shadows, diffuse, others;
 };
 
 Narrowing narrowing_at(float mu) {
-    const float square_root = std::sqrt(mu), cube_root = std::cbrt(mu);
-    return {kNarrowShadows * std::max(square_root, cube_root), cube_root / kWideDiffuse,
+    const float square_root = std::sqrt(mu), fourth_root = std::sqrt(square_root);
+    return {kNarrowShadows * std::max(square_root, fourth_root), std::cbrt(mu) / kWideDiffuse,
             square_root};
 }
 

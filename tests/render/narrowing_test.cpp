@@ -36,7 +36,7 @@ TEST_CASE("filters_narrow_by_roots_of_mu") {
     CHECK(at_8.narrowing_shadows == doctest::Approx(1.4 * std::sqrt(8)).scale(1e-9));
     CHECK(at_8.narrowing_diffuse == doctest::Approx(1.6).scale(1e-9));
     const auto at_eighth = rendering::make_filter_settings(room, filtered(0.125f), 0.125f);
-    CHECK(at_eighth.narrowing_shadows == doctest::Approx(0.7).scale(1e-9));
+    CHECK(at_eighth.narrowing_shadows == doctest::Approx(1.4 / std::pow(8, 0.25)).scale(1e-9));
     CHECK(at_eighth.narrowing_diffuse == doctest::Approx(0.4).scale(1e-9));
     Scene lit_by_mesh = make_scene(
         {make_box(Vec3(-1), Vec3(1), true, 0), make_sphere({0, 0.5f, -0.4f}, 0.2f, 8, false, 1)},
