@@ -18,13 +18,13 @@ TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
     }
 }
 
-/// Ground, its left half as bright as told, under strips that hide a four hundredth of the lamp at
-/// most: penumbrae two pixels wide, filters a tenth of a pixel.
-Scene make_faint_shadows(float left) {
+/// Ground, its left half as bright as told, under strips that hide so much of the lamp at most:
+/// penumbrae two pixels wide, filters a tenth of a pixel.
+Scene make_faint_shadows(float left, float hidden = 1.0f / 400) {
     std::vector<Mesh> meshes{make_quad({-4, 0, -4}, {0, 0, 8}, {4, 0, 0}, 1),
                              make_quad({0, 0, -4}, {0, 0, 8}, {4, 0, 0}, 0)};
     for (float x : {-0.8f, 0.0f, 0.8f})
-        meshes.push_back(make_quad({x, 0.6f, -2}, {0, 0, 4}, {0.002f, 0, 0}, 0));
+        meshes.push_back(make_quad({x, 0.6f, -2}, {0, 0, 4}, {0.8f * hidden, 0, 0}, 0));
     Scene scene = make_penumbra(LightProfile::uniform);
     const Scene strips = make_scene(meshes, {lambert(0.7f), lambert(left)});
     scene.meshes = strips.meshes;
@@ -39,8 +39,8 @@ struct MeanSamples {
 };
 
 /// Of pixels that show the left half of the ground alone.
-MeanSamples samples_in_faint_shadows(float left, float mu) {
-    Scene scene = make_faint_shadows(left);
+MeanSamples samples_in_faint_shadows(float left, float mu, float most_hidden = 1.0f / 400) {
+    Scene scene = make_faint_shadows(left, most_hidden);
     const Image image = render(scene, filtered(mu)).image;
     const auto lit = channel_values(render(scene, quick(1024, 0)).image, "direct.G");
     scene.meshes.resize(2);
@@ -52,7 +52,7 @@ MeanSamples samples_in_faint_shadows(float left, float mu) {
     for (std::size_t i = 0; i < spp.size(); ++i) {
         if (height[i] > 1e-4 || x[i] > -0.1) continue;
         const double hidden = 1 - lit[i] / bare[i];
-        if (hidden > 0.0008) sum.shadows += spp[i], count.shadows += 1;
+        if (hidden > 0.32 * double(most_hidden)) sum.shadows += spp[i], count.shadows += 1;
         if (hidden < 1e-5) sum.others += spp[i], count.others += 1;
     }
     REQUIRE(count.shadows > 50);
@@ -74,6 +74,12 @@ TEST_CASE("shadows_too_dark_to_be_seen_need_not_keep_up") {
     const MeanSamples mean = samples_in_faint_shadows(0.007f, 4);
     CAPTURE(mean.shadows);
     CHECK(mean.shadows < 100);
+}
+
+TEST_CASE("with_small_mu_they_keep_up_with_its_root") {
+    const MeanSamples mean = samples_in_faint_shadows(0.7f, 0.25f, 1.0f / 40);
+    CAPTURE(mean.shadows);
+    CHECK(mean.shadows > 24);
 }
 
 // There neighbours make up for few samples.
