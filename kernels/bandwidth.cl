@@ -154,9 +154,9 @@ inline float noise_samples(float mu, float relative_variance, float pixels) {
    noise get more than they ask for, but far less than path tracing would give them. Filters make up
    for that. Where they reach no farther than the pixel nothing does, and faint shadows would be worse
    than without all this; so there are as many as at middling noise, up to those that bring noise to a
-   quarter of what is aimed at. Over the root of the number of pixels reached: the bias that comes with
-   a filter takes back about half of what it gains, counted in doublings. `asked`: by noise. */
-#define WEDGE_LEAST_UNFILTERED 64.0f /* for mu = 1; below it as its root, as samples in the middle */
+   quarter of what is aimed at. Over the root of the number of pixels reached: with its bias a narrow
+   filter over n of them is worth about sqrt(n) times the samples. `asked`: by noise. */
+#define WEDGE_LEAST_UNFILTERED 64.0f /* times mu, or its root where that is more */
 #define WEDGE_LEAST_NOISE 0.25f
 
 inline float least_samples(float mu, float asked, float pixels) {

@@ -20,11 +20,11 @@ TEST_CASE("no_pixel_is_left_to_the_luck_of_a_few_samples") {
 
 /// Ground, its left half as bright as told, under strips that hide so much of the lamp at most:
 /// penumbrae two pixels wide, filters a tenth of a pixel.
-Scene make_faint_shadows(float left, float hidden = 1.0f / 400) {
+Scene make_faint_shadows(float left, float most_hidden = 1.0f / 400) {
     std::vector<Mesh> meshes{make_quad({-4, 0, -4}, {0, 0, 8}, {4, 0, 0}, 1),
                              make_quad({0, 0, -4}, {0, 0, 8}, {4, 0, 0}, 0)};
     for (float x : {-0.8f, 0.0f, 0.8f})
-        meshes.push_back(make_quad({x, 0.6f, -2}, {0, 0, 4}, {0.8f * hidden, 0, 0}, 0));
+        meshes.push_back(make_quad({x, 0.6f, -2}, {0, 0, 4}, {0.8f * most_hidden, 0, 0}, 0));
     Scene scene = make_penumbra(LightProfile::uniform);
     const Scene strips = make_scene(meshes, {lambert(0.7f), lambert(left)});
     scene.meshes = strips.meshes;
@@ -99,7 +99,7 @@ TEST_CASE("pixels_in_wide_penumbrae_need_not_keep_up") {
     CHECK(sum / count < 19);  // 22 if they had to
 }
 
-// What reaches five pixels gains less than five times the samples would, for it has a bias.
+// A filter that reaches five pixels is worth less than five times the samples, for it has a bias.
 TEST_CASE("pixels_with_narrow_filters_keep_up_by_half") {
     Scene scene = make_faint_shadows(0.7f);
     for (std::size_t i = 2; i < scene.meshes.size(); ++i)
