@@ -92,6 +92,13 @@ double ErrorEstimate::samples_for(double target, ErrorMetric metric) const {
     return samples_ * std::pow(level(which) / wanted, 1 / rate(which));
 }
 
+EstimatedError joined(const EstimatedError& a, double pixels_a, const EstimatedError& b,
+                      double pixels_b) {
+    const double share = pixels_a / (pixels_a + pixels_b);
+    return {std::sqrt(std::lerp(b.rmse * b.rmse, a.rmse * a.rmse, share)),
+            std::lerp(b.rel_mse, a.rel_mse, share)};
+}
+
 EstimatedError estimate_of_filtered(std::span<const shared::FilmPixel> film,
                                     std::span<const Vec3> squares) {
     EstimatedError sum;

@@ -48,6 +48,10 @@ class ErrorEstimate {
     std::vector<Change> changes_;
 };
 
+/// Of two parts of an image, by their pixels.
+EstimatedError joined(const EstimatedError& a, double pixels_a, const EstimatedError& b,
+                      double pixels_b);
+
 /// Of a filtered image, from the mean square errors of its pixels (told_error.hpp). `film` has the
 /// filtered light in its place.
 EstimatedError estimate_of_filtered(std::span<const shared::FilmPixel> film,

@@ -93,6 +93,15 @@ void write_pixels(std::span<const shared::FilmPixel> pixels, const Rect& crop, I
     });
 }
 
+void append_channels(Image& image, std::span<const NamedChannel> channels) {
+    const std::size_t before = image.channels.size(), after = before + channels.size();
+    std::vector<float> pixels(image.pixels.size() / before * after, 0.0f);
+    for (std::size_t i = 0; i * before < image.pixels.size(); ++i)
+        std::copy_n(&image.pixels[i * before], before, &pixels[i * after]);
+    image.pixels = std::move(pixels);
+    for (const NamedChannel& channel : channels) image.channels.push_back(channel.first);
+}
+
 }  // namespace
 
 Image black_image(const Film& film) {
@@ -114,20 +123,17 @@ void write_light(std::span<const shared::FilmPixel> pixels, const Rect& crop, Im
 
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop) {
     if (channels.empty()) return;  // a large image is not copied for nothing
-    const std::size_t before = image.channels.size(), after = before + channels.size();
-    std::vector<float> pixels(image.pixels.size() / before * after, 0.0f);
-    for (std::size_t i = 0; i * before < image.pixels.size(); ++i)
-        std::copy_n(&image.pixels[i * before], before, &pixels[i * after]);
-    image.pixels = std::move(pixels);
-    for (std::size_t k = 0; k < channels.size(); ++k) {
-        image.channels.push_back(channels[k].first);
+    const auto found = std::ranges::find(image.channels, channels[0].first);
+    const auto before = std::size_t(found - image.channels.begin());
+    if (found == image.channels.end()) append_channels(image, channels);
+    const std::size_t stride = image.channels.size();
+    for (std::size_t k = 0; k < channels.size(); ++k)
         for (int y = 0; y < crop.height; ++y)
             for (int x = 0; x < crop.width; ++x) {
                 const auto pixel = std::size_t(crop.y + y) * image.width + crop.x + x;
-                image.pixels[pixel * after + before + k] =
+                image.pixels[pixel * stride + before + k] =
                     channels[k].second[std::size_t(y) * crop.width + x];
             }
-    }
 }
 
 }  // namespace wedge::rendering

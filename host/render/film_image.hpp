@@ -19,7 +19,8 @@ void write_film(std::span<const shared::FilmPixel> pixels, const Rect& crop, Ima
 /// The same, of light alone: what filters change.
 void write_light(std::span<const shared::FilmPixel> pixels, const Rect& crop, Image& image);
 
-/// Appends channels; their values are the crop's, row by row.
+/// Fills channels, which are appended, all 0, where there are none of these names; values are the
+/// crop's, row by row. Always of the same names.
 void add_channels(Image& image, std::span<const NamedChannel> channels, const Rect& crop);
 
 }  // namespace wedge::rendering

@@ -93,11 +93,14 @@ shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOpti
     if (!options.adaptive) s.max_samples = options.samples_per_pixel.value_or(s.probe_samples);
     s.least_samples = options.adaptive ? least_samples(s) : s.max_samples;
     s.mode = mode_of(options.filter);
-    s.max_radius_px =
-        int(std::ceil(kLargestRadius * float(std::max(scene.film.width, scene.film.height))));
+    s.max_radius_px = largest_filter_radius_px(scene.film);
     s.camera_rays_at_edges = camera_rays_at_edges(bounces);
     s.pixel_angle = 2 * std::tan(0.5f * scene.camera.vertical_fov_rad) / float(scene.film.height);
     return s;
+}
+
+int largest_filter_radius_px(const Film& film) {
+    return int(std::ceil(kLargestRadius * float(std::max(film.width, film.height))));
 }
 
 bool goes_in_rounds(const RenderOptions& options) {

@@ -16,6 +16,9 @@ inline constexpr float kLargestMu = 10000;
 shared::FilterSettings make_filter_settings(const Scene& scene, const RenderOptions& options,
                                             float mu);
 
+/// Rows and columns that a filter may reach to each side.
+int largest_filter_radius_px(const Film& film);
+
 /// Whether mu rises until an end is met.
 bool goes_in_rounds(const RenderOptions& options);
 

@@ -121,7 +121,7 @@ class FilteredRun {
     bool sample(float more = 1) {
         const double before_s = loop_.elapsed_s();
         const uint64_t to_come = uint64_t(more * double(samples_to_come(ends_)));
-        const uint64_t total = loop_.samples_done() + to_come;
+        const uint64_t total = loop_.samples_of_band() + to_come;
         bool complete = true;
         for (const Stage& stage : cut_into_stages(ends_, uint32_t(settings_.probe_samples))) {
             filter_.write_pixel_list(stage.pixels);

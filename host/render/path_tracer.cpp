@@ -117,6 +117,8 @@ void PathTracer::upload_frame(const Rect& crop) {
 
 void PathTracer::move_to(const Rect& crop) {
     kernel_.setArg(first_work_arg_ - 1, cl::Buffer());
+    for (cl_uint i = 0; has_signals_ && i < kSignalBuffers; ++i)
+        kernel_.setArg(first_work_arg_ + kWorkArgs + i, cl::Buffer());
     upload_frame(crop);
     kernel_.setArg(0, params_);
     kernel_.setArg(first_work_arg_ - 1, film_);

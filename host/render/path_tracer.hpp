@@ -66,8 +66,7 @@ class PathTracer {
     uint32_t pixel_count() const { return pixel_count_; }
     /// The part of the film that is rendered.
     const Rect& crop() const { return crop_; }
-    /// From now on another part, black, and no larger than the first. Only where nothing is
-    /// attached.
+    /// From now on another part, black; what was attached is let go.
     void move_to(const Rect& crop);
 
   private:

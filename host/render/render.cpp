@@ -2,50 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "host/device/self_test.hpp"
 #include "host/render/bands.hpp"
-#include "host/render/error_estimate.hpp"
 #include "host/render/film_image.hpp"
-#include "host/render/filter_layers.hpp"
 #include "host/render/filter_settings.hpp"
 #include "host/render/filtered_run.hpp"
+#include "host/render/finished_band.hpp"
 #include "host/render/path_tracer.hpp"
 #include "host/render/progressive.hpp"
 #include "host/render/render_settings.hpp"
 #include "host/render/sampling_loop.hpp"
 #include "host/render/signal_filter.hpp"
-#include "host/render/told_error.hpp"
 #include "wedge/error.hpp"
-#include "wedge/log.hpp"
 
 namespace wedge {
 namespace {
 
 using namespace rendering;
-
-void count_film(const std::vector<shared::FilmPixel>& film, const Rect& crop, uint64_t seed,
-                RenderStats& stats) {
-    constexpr std::size_t kNamed = 4;
-    std::vector<std::string> places;
-    uint64_t dropped = 0;
-    for (std::size_t i = 0; i < film.size(); ++i) {
-        const shared::FilmPixel& p = film[i];
-        stats.samples += uint64_t(p.direct.w) + uint64_t(p.square.w);
-        stats.rays += uint64_t(p.indirect.w);
-        dropped += uint64_t(p.square.w);
-        if (p.square.w > 0 && places.size() < kNamed)
-            places.push_back(
-                fmt::format("{},{}", crop.x + int(i % crop.width), crop.y + int(i / crop.width)));
-    }
-    stats.non_finite_samples += dropped;
-    if (dropped > 0)
-        log_warning(
-            fmt::format("{} samples were not finite and have been dropped, first at pixel {}, seed "
-                        "{}; look at one with --pixel X,Y",
-                        dropped, fmt::join(places, " and "), seed));
-}
 
 void add_metadata(Image& image, const Scene& scene, const RenderOptions& options,
                   const RenderStats& stats, const PathSettings& settings) {
@@ -76,46 +52,147 @@ void check_local_size(const device::Device& device, uint32_t local_size) {
                                                   largest, device.info().name, local_size));
 }
 
-/// Takes the pixels of a band that is done into the image.
-void finish_band(PathTracer& tracer, const RenderOptions& options, Frame& frame) {
-    const std::vector<shared::FilmPixel> film = tracer.read_film();
-    count_film(film, tracer.crop(), options.seed, frame.stats);
-    write_film(film, tracer.crop(), frame.image);
-}
-
-/// Path tracing alone, band by band; the last one is left on the device.
-void run_plain(const Scene& scene, const RenderOptions& options, const std::vector<Rect>& bands,
-               SamplingLoop& loop, PathTracer& tracer, Frame& frame) {
-    const uint32_t first = options.sample_offset, samples = sample_count(scene, options);
-    if (estimates_error(options, bands.size()))
-        return run_progressively(options, first, samples, loop, tracer, frame.stats);
-    uint64_t pixels = 0;
-    for (const Rect& band : bands) pixels += uint64_t(band.width) * uint64_t(band.height);
-    for (std::size_t band = 0; band < bands.size(); ++band) {
-        if (band > 0) {
-            finish_band(tracer, options, frame);
-            tracer.move_to(bands[band]);
-        }
-        if (!loop.run("trace_paths", first, first + samples, samples * pixels)) return;
+/// A frame from its scene, band by band.
+class FrameRun {
+  public:
+    FrameRun(const Scene& scene, const RenderOptions& options, const PathSettings& settings,
+             device::Device& device, Frame& frame)
+        : scene_(scene),
+          options_(options),
+          device_(device),
+          frame_(frame),
+          plan_(make_plan(scene, options.method, settings.bounces)),
+          bands_(
+              cut_into_bands(settings.crop, options, device.info(), band_needs(plan_, scene.film))),
+          settings_(with_crop(settings, bands_[0].rendered)),
+          tracer_(device, scene, settings_, plan_, frame.stats),
+          scene_bytes_(frame.stats.device_bytes) {
+        make_filter();
+        if (!options.resume_file.empty())
+            checkpoints_.emplace(scene, options, settings_, frame.stats, tracer_);
     }
-}
 
-/// Takes what is on the device, and what filters have made of it, into the image. `complete`: all
-/// of it is filtered.
-void finish_frame(PathTracer& tracer, const RenderOptions& options, const FilteredLight& filtered,
-                  bool complete, Frame& frame) {
-    std::vector<shared::FilmPixel> film = tracer.read_film();
-    count_film(film, tracer.crop(), options.seed, frame.stats);
-    write_film(film, tracer.crop(), frame.image);  // variances, too, are of what was sampled
-    if (filtered.guarded.empty()) return;
-    const std::vector<Vec3> errors =
-        told_errors(filtered.guarded, std::size_t(tracer.crop().width));
-    const std::vector<NamedChannel> layers = filter_layers(filtered, film, errors);
-    replace_unfiltered(film, filtered);
-    if (complete) frame.stats.estimated_error = estimate_of_filtered(film, errors);
-    write_light(film, tracer.crop(), frame.image);
-    add_channels(frame.image, layers, tracer.crop());
-}
+    void run() {
+        loop_.emplace(options_, tracer_, frame_.stats);
+        const CpuStopwatch cpu_watch;
+        // For all methods alike, what is read back at the end is not rendering.
+        const auto note_times = [&] {
+            frame_.stats.render_s = loop_->elapsed_s();
+            frame_.stats.render_cpu_s = cpu_watch.total();
+        };
+        try {
+            if (checkpoints_) loop_->keep(*checkpoints_);
+            if (filter_)
+                run_with_filters();
+            else
+                run_plain();
+            note_times();
+            if (filter_) read_filtered();
+        } catch (const Error& error) {
+            // What was traced before may still be there; only if it is not, nothing can be saved.
+            if (error.kind() != ErrorKind::device || !loop_->has_samples()) throw;
+            note_times();
+            frame_.stats.failure = error.what();
+            complete_ = false;
+            frame_.stats.mu = 0;
+            filtered_ = {};
+        }
+        finish();
+    }
+
+  private:
+    static PathSettings with_crop(PathSettings settings, const Rect& crop) {
+        settings.crop = crop;
+        return settings;
+    }
+
+    /// Of the band that is on the device. What is told of memory is the most that there is at once,
+    /// of programs what the first band takes.
+    void make_filter() {
+        if (plan_.signals == 0) return;
+        const auto settings =
+            make_filter_settings(scene_, options_, options_.mu.value_or(kDefaultMu));
+        const RenderStats so_far = frame_.stats;
+        const uint64_t before = device_.allocated_bytes();
+        filter_.emplace(device_, tracer_, plan_, tracer_.crop(), settings, settings_.kernel_dir,
+                        frame_.stats);
+        const uint64_t bytes = scene_bytes_ + device_.allocated_bytes() - before;
+        frame_.stats.device_bytes = std::max(so_far.device_bytes, bytes);
+        if (band_ == 0) return;
+        frame_.stats.programs_compiled = so_far.programs_compiled;
+        frame_.stats.programs_from_cache = so_far.programs_from_cache;
+    }
+
+    /// All bands; the last one is left on the device.
+    void run_plain() {
+        const uint32_t first = options_.sample_offset, samples = sample_count(scene_, options_);
+        if (estimates_error(options_, bands_.size()))
+            return run_progressively(options_, first, samples, *loop_, tracer_, frame_.stats);
+        for (;;) {
+            loop_->begin_band(bands_to_come());
+            if (!loop_->run("trace_paths", first, first + samples,
+                            uint64_t(samples) * tracer_.pixel_count()))
+                return;
+            if (band_ + 1 == bands_.size()) return;
+            go_on();
+        }
+    }
+
+    /// The same.
+    void run_with_filters() {
+        for (;;) {
+            loop_->begin_band(bands_to_come());
+            complete_ = run_filtered(scene_, options_, *loop_, tracer_, *filter_, frame_.stats);
+            if (!complete_ || band_ + 1 == bands_.size()) return;
+            read_filtered();
+            filter_.reset();  // there may be no room for two
+            go_on();
+            make_filter();
+        }
+    }
+
+    /// Over the band that is on the device.
+    double bands_to_come() const {
+        double rows = 0;
+        for (std::size_t i = band_ + 1; i < bands_.size(); ++i) rows += bands_[i].rendered.height;
+        return rows / bands_[band_].rendered.height;
+    }
+
+    void read_filtered() {
+        filtered_ = filter_->read_light();
+        filter_->read_layers(filtered_);
+    }
+
+    void go_on() {
+        finish();
+        band_ += 1;
+        tracer_.move_to(bands_[band_].rendered);
+    }
+
+    void finish() {
+        const Band& band = bands_[band_];
+        const auto rows_before = uint64_t(band.kept.y - bands_[0].kept.y);
+        finish_band(tracer_, options_, band, filtered_, complete_,
+                    rows_before * uint64_t(band.kept.width), frame_);
+        filtered_ = {};
+    }
+
+    const Scene& scene_;
+    const RenderOptions& options_;
+    device::Device& device_;
+    Frame& frame_;
+    const Plan plan_;
+    const std::vector<Band> bands_;
+    const PathSettings settings_;  ///< of the first band
+    PathTracer tracer_;
+    std::size_t band_ = 0;        ///< that is on the device
+    const uint64_t scene_bytes_;  ///< with the first band's film
+    std::optional<SignalFilter> filter_;
+    std::optional<Checkpoints> checkpoints_;
+    std::optional<SamplingLoop> loop_;  ///< time begins with it
+    FilteredLight filtered_;            ///< of it
+    bool complete_ = false;             ///< it is all filtered
+};
 
 }  // namespace
 
@@ -124,56 +201,15 @@ const char* version() {
 }
 
 Frame render(const Scene& scene, const RenderOptions& options) {
-    PathSettings settings = make_path_settings(scene, options);
+    const PathSettings settings = make_path_settings(scene, options);
     device::Device device(options.device);
     check_local_size(device, options.local_size);
     device::self_test(device, settings.kernel_dir);
 
     Frame frame;
     frame.stats.device = device.info();
-    const Plan plan = make_plan(scene, options.method, settings.bounces);
-    const std::vector<Rect> bands = cut_into_bands(settings.crop, options, device.info());
-    settings.crop = bands[0];
-    PathTracer tracer(device, scene, settings, plan, frame.stats);
-    std::optional<SignalFilter> filter;
-    if (plan.signals > 0)
-        filter.emplace(device, tracer, plan, settings.crop,
-                       make_filter_settings(scene, options, options.mu.value_or(kDefaultMu)),
-                       settings.kernel_dir, frame.stats);
-    std::optional<Checkpoints> checkpoints;
-    if (!options.resume_file.empty())
-        checkpoints.emplace(scene, options, settings, frame.stats, tracer);
-    SamplingLoop loop(options, tracer, frame.stats);
-    const CpuStopwatch cpu_watch;
-    FilteredLight filtered;
-    bool complete = false;  // what is filtered
     frame.image = black_image(scene.film);
-    // For all methods alike, what is read back at the end is not rendering.
-    const auto note_times = [&] {
-        frame.stats.render_s = loop.elapsed_s();
-        frame.stats.render_cpu_s = cpu_watch.total();
-    };
-    try {
-        if (checkpoints) loop.keep(*checkpoints);
-        if (filter)
-            complete = run_filtered(scene, options, loop, tracer, *filter, frame.stats);
-        else
-            run_plain(scene, options, bands, loop, tracer, frame);
-        note_times();
-        if (filter) {
-            filtered = filter->read_light();
-            filter->read_layers(filtered);
-        }
-    } catch (const Error& error) {
-        // What was traced before may still be there; only if it is not, nothing can be saved.
-        if (error.kind() != ErrorKind::device || !loop.has_samples()) throw;
-        note_times();
-        frame.stats.failure = error.what();
-        complete = false;
-        frame.stats.mu = 0;
-        filtered = {};
-    }
-    finish_frame(tracer, options, filtered, complete, frame);
+    FrameRun(scene, options, settings, device, frame).run();
     add_metadata(frame.image, scene, options, frame.stats, settings);
     return frame;
 }

@@ -1,6 +1,7 @@
 #include "host/render/sampling_loop.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/render/schedule.hpp"
 
@@ -31,6 +32,8 @@ bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t 
     if (checkpoints_) done_ += checkpoints_->begin(schedule, first);
     PassStats pass;
     bool stopped = false;
+    const uint64_t all =
+        before_band_ + total + uint64_t(std::llround(more_to_come_ * double(total)));
     while (!schedule.is_done() && !(stopped = must_stop(schedule.at_pass_end()))) {
         std::optional<Work> work = schedule.next();
         work->probing = probing;
@@ -40,8 +43,7 @@ bool SamplingLoop::run(const char* name, uint32_t first, uint32_t end, uint64_t 
         pass.launches += 1;
         done_ += uint64_t(work->pixel_count) * work->sample_count;
         if (checkpoints_) checkpoints_->between_launches(schedule.position());
-        if (options_.on_progress)
-            options_.on_progress({std::min(done_, total), total, watch_.total()});
+        if (options_.on_progress) options_.on_progress({std::min(done_, all), all, watch_.total()});
     }
     if (checkpoints_) checkpoints_->save(schedule.position());
     add_pass(name, pass.device_s, pass.launches);

@@ -19,8 +19,8 @@ class SamplingLoop {
     void keep(Checkpoints& checkpoints) { checkpoints_ = &checkpoints; }
 
     /// Brings all pixels from sample `first` to `end`, as a pass of that name in the statistics.
-    /// `total`: pixel samples of the whole render, for progress. False if it was stopped.
-    /// `pixels`: of a list, if not all.
+    /// `total`: pixel samples of the whole render, or from begin_band() on, for progress. False if
+    /// it was stopped. `pixels`: of a list, if not all.
     bool run(const char* name, uint32_t first, uint32_t end, uint64_t total, bool probing = false,
              std::optional<uint32_t> pixels = {});
 
@@ -29,7 +29,15 @@ class SamplingLoop {
 
     bool has_samples() const { return done_ > 0; }
     uint64_t samples_done() const { return done_; }  ///< pixel samples
+    uint64_t samples_of_band() const { return done_ - before_band_; }
     double elapsed_s() const { return watch_.total(); }
+
+    /// What is rendered from now on is a band of a film, of which so many times as much is to come;
+    /// for progress, which counts `total` of run() from here.
+    void begin_band(double more_to_come) {
+        before_band_ = done_;
+        more_to_come_ = more_to_come;
+    }
 
     /// Time is over as soon as there is no more than that of so many samples of every pixel.
     void keep_time_for(double samples_per_pixel) { kept_samples_ = samples_per_pixel; }
@@ -48,7 +56,8 @@ class SamplingLoop {
     RenderStats& stats_;
     Checkpoints* checkpoints_ = nullptr;
     Stopwatch watch_;
-    uint64_t done_ = 0;
+    uint64_t done_ = 0, before_band_ = 0;
+    double more_to_come_ = 0;
     double kept_samples_ = 0;
 };
 

@@ -87,6 +87,15 @@ std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
     };
 }
 
+uint64_t largest_filter_buffer(const Plan& plan) {
+    const uint64_t surfaces = WEDGE_SURFACES, entries = surfaces * uint64_t(plan.signals);
+    const uint64_t lights = uint64_t(plan.shadow_lights), parts = uint64_t(plan_parts(plan));
+    return std::max({surfaces * sizeof(shared::SurfaceSum), entries * 2 * sizeof(shared::float4),
+                     surfaces * lights * reflected_sums(plan) * sizeof(shared::float4),
+                     shared_planes(lights, uint64_t(plan.signals), parts) * sizeof(float),
+                     parts * WEDGE_SCALES * sizeof(shared::HalfLight)});
+}
+
 SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Plan& plan,
                            const Rect& crop, const shared::FilterSettings& settings,
                            const std::string& kernel_dir, RenderStats& stats)

@@ -31,6 +31,9 @@ struct FilterBuffer {
 };
 std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels);
 
+/// Bytes of a pixel in the largest single buffer of a plan with signals.
+uint64_t largest_filter_buffer(const Plan& plan);
+
 class SignalFilter {
   public:
     /// Allocates, compiles, and attaches itself to `tracer`.

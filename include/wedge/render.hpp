@@ -87,8 +87,8 @@ struct RenderOptions {
     /// Empty: none.
     std::string resume_file;
     double checkpoint_interval_s = 30;  ///< between two saves; longer where saving takes long
-    /// Most bytes that the film (112 a pixel) may take on the device; larger films are rendered in
-    /// bands, method mc only. 0: what the device allows.
+    /// Most bytes that the film (112 a pixel) and what filters keep (1 to 2.5 kB) may take on the
+    /// device; larger films are rendered in bands. 0: what the device allows.
     uint64_t film_bytes = 0;
     BvhOptions bvh;            ///< how rays find triangles (docs/tracing.md)
     std::string kernel_dir;    ///< read kernels from this source tree instead of the program
