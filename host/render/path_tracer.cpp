@@ -190,6 +190,7 @@ void PathTracer::write_film(const std::vector<shared::FilmPixel>& pixels) {
 
 std::vector<shared::FilmPixel> PathTracer::read_film() {
     std::vector<shared::FilmPixel> pixels(pixel_count_);
+    if (!film_()) return pixels;
     device_.download(film_, pixels.data(), pixels.size() * sizeof(pixels[0]));
     return pixels;
 }

@@ -58,7 +58,7 @@ class PathTracer {
     const cl::Buffer& film() const { return film_; }
     const DeviceScene& scene() const { return scene_; }
 
-    /// The crop's pixels as they are now.
+    /// The crop's pixels as they are now; black where move_to() found no memory for them.
     std::vector<shared::FilmPixel> read_film();
     /// Replaces them: what read_film() gave, for samples to be added to.
     void write_film(const std::vector<shared::FilmPixel>& pixels);
