@@ -1,7 +1,6 @@
 #include "host/render/bands.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -26,20 +25,12 @@ void check_options(const Rect& crop, const RenderOptions& options) {
     if (options.target_error) refuse("which cannot end at an error");
 }
 
-/// Drivers of CPUs may tell less memory than there is.
-uint64_t memory_of(const DeviceInfo& device) {
-    if (device.type != DeviceType::cpu) return device.memory_bytes;
-    const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGE_SIZE);
-    if (pages <= 0 || page_bytes <= 0) return device.memory_bytes;
-    return std::max(device.memory_bytes, uint64_t(pages) * uint64_t(page_bytes));
-}
-
 /// That the device renders at once. Film and filters share its memory with the scene, and rows of
 /// planes may be a little longer than the film's.
 uint64_t pixels_at_once(const RenderOptions& options, const DeviceInfo& device,
                         const BandNeeds& needs) {
     const uint64_t buffer = device.largest_buffer_bytes / 64 * 63;
-    uint64_t memory = memory_of(device) / 4 * uint64_t(needs.memory_quarters);
+    uint64_t memory = device.memory_bytes / 4 * uint64_t(needs.memory_quarters);
     if (options.film_bytes > 0) memory = std::min(memory, options.film_bytes);
     return std::min(memory / needs.pixel_bytes, buffer / needs.buffer_bytes);
 }
@@ -50,8 +41,10 @@ BandNeeds band_needs(const Plan& plan, const Film& film) {
     BandNeeds needs;
     needs.pixel_bytes = needs.buffer_bytes = sizeof(shared::FilmPixel);
     if (plan.signals == 0) return needs;
-    for (const FilterBuffer& buffer : filter_buffers(plan, 1)) needs.pixel_bytes += buffer.bytes;
-    needs.buffer_bytes = std::max(needs.buffer_bytes, largest_filter_buffer(plan));
+    for (const FilterBuffer& buffer : filter_buffers(plan, 1)) {
+        needs.pixel_bytes += buffer.bytes;
+        needs.buffer_bytes = std::max(needs.buffer_bytes, buffer.bytes);
+    }
     // The image on the host is small beside it, and a third of it is never touched on CPUs: what is
     // kept of second and third surfaces, which most pixels have not.
     needs.memory_quarters = 3;

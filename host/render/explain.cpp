@@ -131,11 +131,19 @@ std::vector<Line> programs(const Plan& plan) {
 std::vector<Line> buffers(const Plan& plan, const Rect& crop) {
     const uint64_t pixels = uint64_t(crop.width) * uint64_t(crop.height);
     std::vector<Line> lines;
-    const auto add = [&](const char* name, uint64_t bytes) {
-        lines.push_back({name, fmt::format("{:.1f} MiB", double(bytes) / (1 << 20)), ""});
+    const auto add = [&](std::string_view name, uint64_t bytes) {
+        lines.push_back(
+            {std::string(name), fmt::format("{:.1f} MiB", double(bytes) / (1 << 20)), ""});
     };
     add("film", pixels * sizeof(shared::FilmPixel));
-    for (const FilterBuffer& buffer : filter_buffers(plan, pixels)) add(buffer.name, buffer.bytes);
+    const std::vector<FilterBuffer> of_filters = filter_buffers(plan, pixels);
+    for (std::size_t i = 0; i < of_filters.size();) {
+        const std::string_view name = of_filters[i].name;
+        uint64_t bytes = 0;
+        for (; i < of_filters.size() && of_filters[i].name == name; ++i)
+            bytes += of_filters[i].bytes;
+        add(name, bytes);
+    }
     return lines;
 }
 

@@ -67,7 +67,6 @@ void finish_band(PathTracer& tracer, const RenderOptions& options, const Band& b
     count_film(film, band.rendered, options.seed, frame.stats);
     // Variances, too, are of what was sampled.
     write_film(kept_of(film, band), band.kept, frame.image);
-    if (!complete && options.method == Method::aaf) frame.stats.estimated_error.reset();
     if (filtered.guarded.empty()) return;
     const std::vector<Vec3> errors =
         told_errors(filtered.guarded, std::size_t(band.rendered.width));

@@ -8,8 +8,7 @@
 namespace wedge::rendering {
 
 /// The band that is on the device, and what filters have made of it, if anything. `complete`: all
-/// of it is filtered. Its error is joined to that of the bands before, all of `pixels_before`, and
-/// none is told of a frame that is not complete.
+/// of it is filtered; then its error is joined to that of the bands before, all of `pixels_before`.
 void finish_band(PathTracer& tracer, const RenderOptions& options, const Band& band,
                  const FilteredLight& filtered, bool complete, uint64_t pixels_before,
                  Frame& frame);

@@ -98,6 +98,8 @@ class FrameRun {
             filtered_ = {};
         }
         finish();
+        // Bands that were finished before it was stopped do not tell that of the frame.
+        if (plan_.signals > 0 && !complete_) frame_.stats.estimated_error.reset();
     }
 
   private:

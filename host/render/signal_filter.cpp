@@ -64,36 +64,30 @@ std::vector<T> read(device::Device& device, const cl::Buffer& buffer, uint64_t c
 std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels) {
     if (plan.signals == 0) return {};
     const uint64_t surfaces = pixels * WEDGE_SURFACES, entries = surfaces * uint64_t(plan.signals);
-    return {
-        {"sample counts", pixels * (sizeof(shared::SampleEnds) + sizeof(cl_uint))},
-        {"surfaces of pixels",
-         surfaces * (sizeof(shared::SurfaceSum) + WEDGE_PLACE_PLANES * sizeof(float)) +
-             pixels * sizeof(cl_uint)},
-        {"signals, sampled", entries * 2 * sizeof(shared::float4)},
-        {"distances", entries * sizeof(shared::DistanceRange)},
-        {"distances, then signals, then errors of filters, then guarded light",
-         2 * pixels *
-             shared_planes(uint64_t(plan.shadow_lights), uint64_t(plan.signals),
-                           uint64_t(plan_parts(plan))) *
-             sizeof(float)},
-        {"filter widths, edges of surfaces, thin things", (entries + 2 * pixels) * sizeof(float)},
-        {"unshadowed light",
-         uint64_t(plan.shadow_lights) * (surfaces * reflected_sums(plan) * sizeof(shared::float4) +
-                                         pixels * corrections(plan) * sizeof(float))},
-        {"light before and after filters",
-         pixels * (sizeof(shared::SampledLight) + sizeof(shared::Remainder) +
-                   uint64_t(plan_parts(plan)) *
-                       (WEDGE_SCALES * sizeof(shared::HalfLight) + sizeof(float)))},
-    };
-}
-
-uint64_t largest_filter_buffer(const Plan& plan) {
-    const uint64_t surfaces = WEDGE_SURFACES, entries = surfaces * uint64_t(plan.signals);
     const uint64_t lights = uint64_t(plan.shadow_lights), parts = uint64_t(plan_parts(plan));
-    return std::max({surfaces * sizeof(shared::SurfaceSum), entries * 2 * sizeof(shared::float4),
-                     surfaces * lights * reflected_sums(plan) * sizeof(shared::float4),
-                     shared_planes(lights, uint64_t(plan.signals), parts) * sizeof(float),
-                     parts * WEDGE_SCALES * sizeof(shared::HalfLight)});
+    const uint64_t in_planes = shared_planes(lights, uint64_t(plan.signals), parts);
+    const char *counts = "sample counts", *seen = "surfaces of pixels";
+    const char* in_turn = "distances, then signals, then errors of filters, then guarded light";
+    const char* widths = "filter widths, edges of surfaces, thin things";
+    const char *unshadowed = "unshadowed light", *light = "light before and after filters";
+    return {{counts, pixels * sizeof(shared::SampleEnds)},
+            {counts, pixels * sizeof(cl_uint)},
+            {seen, surfaces * sizeof(shared::SurfaceSum)},
+            {seen, surfaces * WEDGE_PLACE_PLANES * sizeof(float)},
+            {seen, pixels * sizeof(cl_uint)},
+            {"signals, sampled", entries * 2 * sizeof(shared::float4)},
+            {"distances", entries * sizeof(shared::DistanceRange)},
+            {in_turn, pixels * in_planes * sizeof(float)},
+            {in_turn, pixels * in_planes * sizeof(float)},
+            {widths, entries * sizeof(float)},
+            {widths, pixels * sizeof(float)},
+            {widths, pixels * sizeof(float)},
+            {unshadowed, lights * surfaces * reflected_sums(plan) * sizeof(shared::float4)},
+            {unshadowed, lights * pixels * corrections(plan) * sizeof(float)},
+            {light, pixels * sizeof(shared::SampledLight)},
+            {light, pixels * sizeof(shared::Remainder)},
+            {light, pixels * parts * WEDGE_SCALES * sizeof(shared::HalfLight)},
+            {light, pixels * parts * sizeof(float)}};
 }
 
 SignalFilter::SignalFilter(device::Device& device, PathTracer& tracer, const Plan& plan,

@@ -24,15 +24,13 @@ struct FilteredLight {
     SignalLayers indirect;  ///< diffuse
 };
 
-/// Device memory that a plan's signals take for so many pixels.
+/// Device memory that a plan's signals take for so many pixels, buffer by buffer; those of one name
+/// come one after the other.
 struct FilterBuffer {
     const char* name;
     uint64_t bytes;
 };
 std::vector<FilterBuffer> filter_buffers(const Plan& plan, uint64_t pixels);
-
-/// Bytes of a pixel in the largest single buffer of a plan with signals.
-uint64_t largest_filter_buffer(const Plan& plan);
 
 class SignalFilter {
   public:

@@ -118,7 +118,6 @@ TEST_CASE("margins_of_bands_are_on_the_crop_and_fit") {
     }
     // The largest buffer counts by itself, and all of them together.
     device.largest_buffer_bytes = 100 * 100 * needs.buffer_bytes;
-    device.type = DeviceType::gpu;
     CHECK(rendering::cut_into_bands(crop, {}, device, needs)[0].rendered.height < 100);
     device.memory_bytes = 40 * 100 * needs.pixel_bytes;
     CHECK(rendering::cut_into_bands(crop, {}, device, needs)[0].rendered.height <= 30);

@@ -153,6 +153,17 @@ TEST_CASE("scenes_without_gloss_have_no_buffers_for_it") {
     CHECK(more == entries * (32 + 64 + 16 + 4));
 }
 
+TEST_CASE("what_has_nothing_to_filter_has_an_error_all_the_same") {
+    Scene scene = make_room(0);
+    scene.rect_lights.clear();
+    scene.point_lights.assign(1, {.position = {0, 0.5f, 0}});
+    RenderOptions options = quick(16, 0);
+    options.method = Method::aaf;
+    options.estimate_error = true;
+    REQUIRE(rendering::make_plan(scene, options.method, 0).signals == 0);
+    CHECK(render(scene, options).stats.estimated_error);
+}
+
 TEST_CASE("memory_that_is_told_is_what_filters_take") {
     Scene scene = make_room(20);
     scene.film = {256, 192};
